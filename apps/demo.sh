@@ -59,7 +59,7 @@ The results are in $out:
   events.txt   the table above: where the column touches the walls, snaps and lets go
   path.csv     one row a point; plot the column lambda (the load) over mid or over shortening
   events.json  the same events for programs
-  atlas.json   which states there are over the load, and what leads from one to another
+  branches.json   which states there are over the load, and what leads from one to another
   deck.toml    the deck with every default written out
 Try another:   build/release/apps/trace-path examples
 END

@@ -140,7 +140,7 @@ class Suite:
 
     def traced(self, case: str, size: int, deck: str, values: list, options: tuple = (), **more) -> TracePath:
         out = self.scratch / f"{case}-{size}"
-        command = [self.program("trace-path"), "run", str(SOURCE / deck), "--quiet", "--set", "path.landing=false", *options]
+        command = [self.program("trace-path"), "run", str(SOURCE / deck), "--quiet", "--set", "path.jumps=false", *options]
         for value in values:
             command += ["--set", value]
         command += ["--out", str(out)]  # last: see TracePath

@@ -118,6 +118,7 @@ class TimedSystem final : public System {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.with_mesh_for_landing(from, forward, to, guard);
   }
+  Index separate_contacts(const Piece& piece) const override { return inner_.separate_contacts(piece); }
   bool passes_through(const State& from, const State& to) const override {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.passes_through(from, to);

@@ -251,6 +251,36 @@ bool SlidingContact::passes_through(const State& from, const State& to) const {
   return sliding::passes_through(*setting_, SlidingState(from), SlidingState(to));
 }
 
+// Each closed point, but those at the end of a zone that an earlier one begins; each zone from end to end of a strand;
+// and each closed end, which is one with the zones that reach it.
+Index SlidingContact::separate_contacts(const Piece& piece) const {
+  const SlidingContactLayout& layout = sliding_layout(piece);
+  const std::size_t points = layout.points().size();
+  const auto strand_of = [&](std::size_t k) { return layout.mesh().breakpoint(static_cast<Index>(k)).first; };
+  const auto is_in_zone = [&](const StrandEnd& end, std::size_t obstacle) {
+    if (const auto whole = layout.lies_on(end.strand)) return *whole == obstacle;
+    const auto point = layout.point_at_end(end.strand, end.last);
+    return point && layout.points()[*point].obstacle == obstacle &&
+           layout.span_at_end(end.strand, end.last) != SlidingContactLayout::Span::free;
+  };
+  Index count = 0;
+  for (std::size_t k = 0; k < points; ++k) {
+    const bool ends_zone =
+        k > 0 && strand_of(k) == strand_of(k - 1) && layout.points()[k - 1].behind != SlidingContactLayout::Span::free;
+    if (piece[k] != 0 && !ends_zone) ++count;
+  }
+  for (Index strand = 0; strand < body().strands(); ++strand)
+    if (layout.lies_on(strand)) ++count;
+  for (std::size_t e = 0; e < setting_->free_ends.size(); ++e) {
+    if (piece[points + e] == 0) continue;
+    const FreeEnd& end = setting_->free_ends[e];
+    if (!is_in_zone({.strand = end.strand, .last = end.last}, end.obstacle)) ++count;
+    count -= std::count_if(end.joined.begin(), end.joined.end(),
+                           [&](const StrandEnd& other) { return is_in_zone(other, end.obstacle); });
+  }
+  return count;
+}
+
 bool SlidingContact::may_have_kink(const State& from, const State& to) const {
   const SlidingState before(from), behind(to);
   const auto curvature = [&](const sliding::Touch& touch, const SlidingState& at) {

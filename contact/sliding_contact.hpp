@@ -71,6 +71,7 @@ class SlidingContact final : public System, public ContactQuery {
   bool passes_through(const State& from, const State& to) const override;
   bool may_have_kink(const State& from, const State& to) const override;
   bool comes_behind_an_end(const State& from, const State& to) const override;
+  Index separate_contacts(const Piece& piece) const override;
   Piece canonical_piece(const State& state) const override;
 
   ContactPoint contact(const State& state, Index j) const override;

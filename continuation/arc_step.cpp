@@ -34,7 +34,7 @@ StepTried step_to_known_end(TraceTools& tools, const StepOrigin& origin) {
   for (Index j = 0; j < guards.size(); ++j)
     holds = holds && guards[j] >= -tools.options.mesh_error_of(end.point.state.piece, j);
   if (holds) return {.result = std::move(end)};
-  return {.result = Rejected{.outcome = StepOutcome::not_landed, .failure = landed.failure}};
+  return {.result = Rejected{.outcome = StepOutcome::event_not_located, .failure = landed.failure}};
 }
 
 // A step of length s, or to where it ends if that is known already: the bound that has been passed, the first of the
@@ -187,7 +187,8 @@ void land_before_piece_ahead(TraceTools& tools, const StepOrigin& origin, const 
   end.event = EventPlace{.what = EventPlace::What::target_value, .which = value.which, .t = 1.0};
   if (passed->entered || !land_piece_ahead(tools, origin.metric.lambda_scale(), value, passed->at)) return;
   for (Event& event : passed->events)
-    event.localised = std::max(event.localised, std::abs(passed->at.state.lambda - event.state.lambda));
+    event.lambda_uncertainty =
+        std::max(event.lambda_uncertainty, std::abs(passed->at.state.lambda - event.state.lambda));
 }
 
 // A change of contacts at an arc's end is left; empty where there is none.

@@ -161,7 +161,7 @@ std::optional<Explorer::Step> Explorer::next() {
       return Step{.branch = current_, .arc = std::move(*arc)};
     }
     branches_[static_cast<std::size_t>(current_)].end = tracer_->end();
-    if (const auto& end = tracer_->end(); end->reason == EndReason::joined && end->partner)
+    if (const auto& end = tracer_->end(); end->reason == EndReason::reached_branch && end->partner)
       drop_arrived_at(*end->partner);
     tracer_.reset();
     not_left_.reset();
@@ -188,14 +188,14 @@ void Explorer::stop(const BranchEnd& end) {
 // A branch point was located on the branch under way: decide who goes on.
 void Explorer::look_at(const Event& event) {
   const BranchPoint& point = *event.branching;
-  if (event.suspected) return;
+  if (event.unconfirmed) return;
   const Metric metric(system_.weights(point.state.piece), lambda_scale_);
   if (is_known(system_, known_, point, metric)) return;
   known_.push_back({.state = point.state, .branch = current_});
   if (tracer_->end() && tracer_->end()->reason == EndReason::stop) return;
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
-  const bool stays = here.found && options_.policy == BranchPolicy::follow;
-  if (stays || options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.discretisation) return;
+  const bool stays = here.found && options_.policy == BranchPolicy::most_stable;
+  if (stays || options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.mesh_artefact) return;
   if (point.ways.empty() && point.mode.dx.size() == 0) return;
   if (options_.policy == BranchPolicy::all && here.depth >= options_.depth) return;
   const bool mirror_ahead = point.ends_its_own_branch();
@@ -207,7 +207,7 @@ void Explorer::look_at(const Event& event) {
   }
   const bool ahead_is_stable = event.unstable_after == Index{0} && !mirror_ahead;
   const bool nothing_is_known = system_.leaves_stability_open(point.state.piece);
-  if (options_.policy == BranchPolicy::follow && (ahead_is_stable || nothing_is_known)) return;
+  if (options_.policy == BranchPolicy::most_stable && (ahead_is_stable || nothing_is_known)) return;
 
   const std::vector<TriedWay> ways = tried_ways(system_, trace_, point, metric, options_.distance);
   if (!ways.empty())
@@ -224,7 +224,8 @@ void Explorer::look_behind(const Event& event, const Arc& arc) {
   constexpr double of_mesh = 1e-3;  // between a branch point and a corner that are one but for the mesh [path metric]
   const State& before = event.branching->state;
   const bool spreads = std::any_of(arc.events.begin(), arc.events.end(), [&](const Event& next) {
-    return next.kind == EventKind::contact_spreads && next.state.piece == before.piece &&
+    const bool grows = next.kind == EventKind::contact_spreads || next.kind == EventKind::contact_splits;
+    return grows && next.state.piece == before.piece &&
            Metric(system_.weights(before.piece), lambda_scale_).distance(next.state, before) <= of_mesh;
   });
   const PathPoint& behind = tracer_->here();
@@ -241,9 +242,9 @@ void Explorer::look_behind(const Event& event, const Arc& arc) {
 
 // Who wants the stable way is told that none was found.
 void Explorer::stop_unstable() {
-  if (options_.policy == BranchPolicy::follow && !tracer_->end())
+  if (options_.policy == BranchPolicy::most_stable && !tracer_->end())
     tracer_->stop({.reason = EndReason::min_step,
-                   .detail = "the path goes on unstable behind a branch point, and no step off that succeeds"});
+                   .detail = "the path is unstable beyond a branch point, and switching to the other branch failed"});
 }
 
 // Decides which of the ways off a branch point are traced. `point` is where they leave: that of the event, or a corner
@@ -251,16 +252,17 @@ void Explorer::stop_unstable() {
 void Explorer::leave(const Event& event, const BranchPoint& point, const std::vector<TriedWay>& ways) {
   const Metric metric(system_.weights(point.state.piece), lambda_scale_);
   const bool mirror_ahead = point.ends_its_own_branch();
-  const bool mirrored = mirror_images(ways);
+  const bool mirror_image = mirror_images(ways);
   const std::optional<Index> unstable = unstable_at(
       event, mirror_ahead ? tried_ways(system_, trace_, point, metric, just_behind * options_.distance) : ways);
   const int preferred = preferred_sign(options_.preference, point, ways, metric);
   if (options_.policy == BranchPolicy::all) {
     for (const TriedWay& way : ways)
-      if (!mirrored || way.sign == preferred) enqueue(event, start_along(event, way, unstable), way.sign, mirrored);
+      if (!mirror_image || way.sign == preferred)
+        enqueue(event, start_along(event, way, unstable), way.sign, mirror_image);
     if (mirror_ahead)
       tracer_->stop(
-          {.reason = EndReason::joined, .detail = "joins the branch from which it and its mirror image leave"});
+          {.reason = EndReason::reached_branch, .detail = "joins the branch from which it and its mirror image leave"});
     return;
   }
   // follow: the way with fewest unstable directions; of equals the preferred side
@@ -269,13 +271,13 @@ void Explorer::leave(const Event& event, const BranchPoint& point, const std::ve
   };
   const TriedWay& best = *std::min_element(ways.begin(), ways.end(),
                                            [&](const TriedWay& a, const TriedWay& b) { return rank(a) < rank(b); });
-  enqueue(event, start_along(event, best, unstable), best.sign, mirrored);
+  enqueue(event, start_along(event, best, unstable), best.sign, mirror_image);
   const auto next = static_cast<int>(branches_.size());
   tracer_->stop(
-      {.reason = EndReason::branched, .detail = "goes on as branch " + std::to_string(next), .partner = next});
+      {.reason = EndReason::switched_branch, .detail = "continues as branch " + std::to_string(next), .partner = next});
 }
 
-void Explorer::enqueue(const Event& event, BranchStart start, int sign, bool mirrored) {
+void Explorer::enqueue(const Event& event, BranchStart start, int sign, bool mirror_image) {
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
   start.lambda_scale = lambda_scale_;
   queue_.push_back({.start = std::move(start),
@@ -283,7 +285,7 @@ void Explorer::enqueue(const Event& event, BranchStart start, int sign, bool mir
                                .origin = event.branching,
                                .depth = here.depth + 1,
                                .sign = sign,
-                               .mirrored = mirrored}});
+                               .mirror_image = mirror_image}});
 }
 
 // The branch under way ended at a branch point of this other one: the way off that point by which it came, or whose
@@ -300,7 +302,7 @@ void Explorer::drop_arrived_at(int other) {
     const double length = metric.norm(arrival);
     if (length > metric.norm(step) + arriving) return false;  // not in this step
     const double cosine = metric.inner(arrival, *queued.start.forward) / length;
-    return cosine < -0.5 || (queued.record.mirrored && cosine > 0.5);
+    return cosine < -0.5 || (queued.record.mirror_image && cosine > 0.5);
   });
 }
 

@@ -12,9 +12,10 @@ namespace arcwall {
 
 /// What is done at branch points.
 enum class BranchPolicy {
-  primary,  ///< stay on the first branch through every branch point
-  follow,   ///< where the branch ahead is unstable, take the bifurcated one: the one with fewest unstable directions
-  all,      ///< trace every branch found, to a depth
+  primary,      ///< stay on the first branch through every branch point
+  most_stable,  ///< where the branch ahead is unstable, take the bifurcated one: the one with fewest unstable
+                ///< directions
+  all,          ///< trace every branch found, to a depth
 };
 
 struct ExploreOptions {
@@ -31,9 +32,9 @@ struct BranchRecord {
   std::optional<int> parent{};                  ///< the branch it leaves
   std::shared_ptr<const BranchPoint> origin{};  ///< where it leaves
   int depth = 0;
-  int sign = 1;           ///< side of its branch point's mode
-  bool mirrored = false;  ///< the other side is its mirror image and not traced
-  bool found = false;     ///< it leaves no branch: it begins at a state that was found
+  int sign = 1;               ///< side of its branch point's mode
+  bool mirror_image = false;  ///< the other side is its mirror image and not traced
+  bool found = false;         ///< it leaves no branch: it begins at a state that was found
   std::optional<BranchEnd> end{};
 };
 
@@ -101,7 +102,7 @@ class Explorer {
   void look_behind(const Event& event, const Arc& arc);
   void leave(const Event& event, const BranchPoint& point, const std::vector<TriedWay>& ways);
   void stop_unstable();
-  void enqueue(const Event& event, BranchStart start, int sign, bool mirrored);
+  void enqueue(const Event& event, BranchStart start, int sign, bool mirror_image);
   void drop_arrived_at(int other);
 
   const System& system_;

@@ -53,7 +53,7 @@ std::optional<KnownPlace> passed_known_place(TraceTools& tools, const StepOrigin
   for (const KnownPoint& known : start.known)
     if (auto place = passed(tools, origin, to, known.state))
       return KnownPlace{.state = std::move(*place),
-                        .end = {.reason = EndReason::joined,
+                        .end = {.reason = EndReason::reached_branch,
                                 .detail = "joins branch " + std::to_string(known.branch),
                                 .partner = known.branch}};
   return std::nullopt;

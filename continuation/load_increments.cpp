@@ -75,7 +75,7 @@ std::optional<LoadIncrements::Increment> LoadIncrements::solve_on(const Piece& p
   if (status != FactorStatus::ok || !solver_->solve_inner(dx) || !dx.allFinite()) {
     const bool finite = status != FactorStatus::not_finite;
     end_ = BranchEnd{.reason = finite ? EndReason::singular : EndReason::not_finite,
-                     .detail = "the stiffness of an increment"};
+                     .detail = "the tangent stiffness of a load increment"};
     return std::nullopt;
   }
   increment.dx = dx.col(0);
@@ -116,7 +116,7 @@ std::vector<Event> LoadIncrements::changes(const Piece& before, const PathPoint&
   std::vector<Event> events;
   for (const EventKind kind : {EventKind::contact_opens, EventKind::contact_closes}) {
     Event event{.kind = kind, .state = after.state, .arc = after.arc, .residual = after.residual};
-    event.localised = std::abs(after.state.lambda - lambda_before);  // it happened on the way
+    event.lambda_uncertainty = std::abs(after.state.lambda - lambda_before);  // it happened on the way
     event.unstable_before = event.unstable_after = after.count.unstable;
     for (std::size_t j = 0; j < before.size(); ++j)
       if (before[j] != after.state.piece[j] && (after.state.piece[j] != 0) == (kind == EventKind::contact_closes))

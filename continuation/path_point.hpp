@@ -32,22 +32,27 @@ enum class EventKind {
   end,
   contact_closes,
   contact_opens,
-  contact_spreads,  ///< a point contact becomes a line
-  contact_gathers,  ///< a line becomes a point contact
-  contact_passes,   ///< a contact moves from the end of a member to its inside, or back
+  contact_spreads,    ///< a contact point becomes a contact zone
+  contact_splits,     ///< a contact point or zone becomes two contacts with a free span between
+  contact_shrinks,    ///< a contact zone becomes a contact point
+  contacts_merge,     ///< two contacts become one
+  contact_transfers,  ///< contact moves between the end and the inside of a member, or over a joint
   limit_point,
   contact_limit_point,
-  displacement_limit,
+  turning_point,  ///< of a monitor
   branch_point,
   user,  ///< of a detector that the program added
 };
 
+/// Which way λ turns at a limit point.
+enum class Extremum { maximum, minimum };
+
 /// How branches cross.
 enum class BranchType {
-  symmetric,     ///< a pitchfork: the other branch leaves along the mode, both sides alike at first order
-  asymmetric,    ///< transcritical
-  one_sided,     ///< several directions leave a change of contacts
-  undetermined,  ///< several modes at one place, or none that is known
+  pitchfork,      ///< the other branch leaves along the mode, both sides alike at first order
+  transcritical,  ///< both branches pass through the point, and λ turns on neither
+  one_sided,      ///< several directions leave a change of contacts
+  multiple,       ///< several modes at one place, or none that is known
 };
 
 /// A point where several branches meet.
@@ -58,23 +63,23 @@ struct BranchPoint {
     Direction direction{};
   };
 
-  BranchType type = BranchType::symmetric;
+  BranchType type = BranchType::pitchfork;
   State state{};
-  Direction along{};               ///< unit tangent of the branch it was found on, forward
-  Direction mode{};                ///< critical mode, of unit length, first largest component positive; no λ
-  std::vector<Direction> modes{};  ///< all critical modes, `mode` the first
-  Direction other{};               ///< unit tangent of the other branch
-  std::vector<Way> ways{};         ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty. Of
-                                   ///< a pitchfork that is met along its own branch: both along the other one
-  Index multiplicity = 1;          ///< of the zero eigenvalue
-  Index change = 0;                ///< of the number of negative eigenvalues across it
-  double localised = 0.0;          ///< half-width in λ of what is left uncertain
-  bool discretisation = false;     ///< contacts tied to nodes make it: the continuum has none
-  bool at_corner = false;          ///< its branches begin with a part that has no length there: `state` is a little
-                                   ///< behind it, on the path
+  Direction along{};                ///< unit tangent of the branch it was found on, forward
+  Direction mode{};                 ///< critical mode, of unit length, first largest component positive; no λ
+  std::vector<Direction> modes{};   ///< all critical modes, `mode` the first
+  Direction other{};                ///< unit tangent of the other branch
+  std::vector<Way> ways{};          ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty. Of
+                                    ///< a pitchfork that is met along its own branch: both along the other one
+  Index multiplicity = 1;           ///< of the zero eigenvalue
+  Index change = 0;                 ///< of the number of negative eigenvalues across it
+  double lambda_uncertainty = 0.0;  ///< half-width in λ of what is left uncertain
+  bool mesh_artefact = false;       ///< contacts tied to nodes make it: the continuum has none
+  bool at_corner = false;           ///< its branches begin with a part that has no length there: `state` is a little
+                                    ///< behind it, on the path
 
   /// A pitchfork that the path comes to along the branch that bifurcates: beyond it lies the path's mirror image.
-  bool ends_its_own_branch() const { return type == BranchType::symmetric && !ways.empty(); }
+  bool ends_its_own_branch() const { return type == BranchType::pitchfork && !ways.empty(); }
 };
 
 /// A located point of a path.
@@ -83,10 +88,11 @@ struct Event {
   std::string label{};  ///< which monitor turns; why the branch ends
   State state{};        ///< on the piece of `guards`; the arc's end may be the same place on another mesh
   double arc = 0.0;
-  double residual = 0.0;   ///< relative
-  double localised = 0.0;  ///< half-width in λ of what is left uncertain
-  bool suspected = false;  ///< zero is touched without a change of sign, as nearly as can be told
+  double residual = 0.0;            ///< relative
+  double lambda_uncertainty = 0.0;  ///< half-width in λ of what is left uncertain
+  bool unconfirmed = false;         ///< zero is touched without a change of sign, as nearly as can be told
   std::optional<Index> unstable_before{}, unstable_after{};
+  std::optional<Extremum> extremum{};              ///< of λ, where it turns
   std::vector<Index> guards{};                     ///< contacts that change
   std::optional<Continuum> continuum{};            ///< of which the path keeps to one member from here on
   std::shared_ptr<const BranchPoint> branching{};  ///< of branch points
@@ -94,22 +100,22 @@ struct Event {
 
 /// Why a branch ended.
 enum class EndReason {
-  stop,         ///< a bound of the deck was met
-  closed_loop,  ///< it came back to a point it had passed
-  joined,       ///< it reached a branch point of another branch
-  branched,     ///< the path goes on along a bifurcated branch
+  stop,             ///< a bound of the deck was met
+  closed_loop,      ///< it came back to a point it had passed
+  reached_branch,   ///< it reached a branch point of another branch
+  switched_branch,  ///< the path goes on along a bifurcated branch
   max_points,
   max_time,
   interrupted,
   min_step,  ///< no step above the least length succeeds
   singular,  ///< the equations are singular where they should not be
   not_finite,
-  no_ray,           ///< no equilibrium leaves a change of contacts
-  turning_control,  ///< the controlled quantity turns
-  wall_end,         ///< a contact reached the end of its wall
-  continuum,        ///< a continuum of equilibria with one load and energy lies ahead
-  unsupported,      ///< something lies ahead that is not modelled
-  adrift,           ///< a body that nothing holds was pushed away
+  no_continuation,     ///< no equilibrium leaves a change of contacts
+  control_turns,       ///< the controlled quantity turns
+  wall_end,            ///< a contact reached the end of its wall
+  equilibrium_family,  ///< a continuum of equilibria with one load and energy lies ahead
+  not_modelled,        ///< something lies ahead that is not modelled
+  rigid_body_motion,   ///< a body that nothing holds was pushed away
 };
 
 /// How a branch ended.

@@ -28,20 +28,20 @@ BranchEnd end_of_attempts(const TraceOptions& options, const std::optional<Rejec
   if (why && why->outcome == StepOutcome::behind_end)
     return {.reason = EndReason::wall_end,
             .detail =
-                "the body comes into a wall from beyond the wall's end, where that has no face; an outline has one "
-                "all around"};
+                "the structure would enter a wall from beyond its open end, where it has no contact surface; a closed "
+                "outline has one all around"};
   if (controlled)
-    return {.reason = EndReason::turning_control,
-            .detail = "the controlled quantity turns back; use method = \"spherical\" to go on"};
-  if (why && why->outcome == StepOutcome::penetrates)
-    return {.reason = EndReason::unsupported,
-            .detail = with_place("a wall is touched ahead where contact cannot be followed", why->where)};
+    return {.reason = EndReason::control_turns,
+            .detail = "the controlled quantity turns back; use path.method = \"spherical\""};
+  if (why && why->outcome == StepOutcome::penetration)
+    return {.reason = EndReason::not_modelled,
+            .detail = with_place("a member reaches a wall where its contact cannot be followed", why->where)};
   if (why && why->failure == CorrectorStatus::singular)
-    return {.reason = EndReason::singular, .detail = "the equations are singular ahead"};
+    return {.reason = EndReason::singular, .detail = "the tangent stiffness is singular ahead"};
   if (why && why->failure == CorrectorStatus::not_finite)
     return {.reason = EndReason::not_finite, .detail = "a step leads to numbers that are not finite"};
   return {.reason = EndReason::min_step,
-          .detail = with_place("no step above path.min_step succeeds", why ? why->where : std::string())};
+          .detail = with_place("no step above path.min_step converges", why ? why->where : std::string())};
 }
 
 // Of two attempts the one that says why the branch ends: one that found no equilibrium does not take back that the
@@ -182,7 +182,7 @@ std::optional<Arc> Tracer::next() {
       state_.from = std::move(retry->finer);
       continue;
     }
-    why = telling(why, retry ? Rejected{.outcome = StepOutcome::penetrates} : std::get<Rejected>(attempt.result));
+    why = telling(why, retry ? Rejected{.outcome = StepOutcome::penetration} : std::get<Rejected>(attempt.result));
     state_.step.failed(s);
   }
   BranchEnd end = end_of_attempts(tools_->options, why);

@@ -67,6 +67,13 @@ class System : public UnilateralSystem {
   /// has no face: that of an upper arc of a circle from below, say.
   virtual bool comes_behind_an_end(const State& /*from*/, const State& /*to*/) const { return false; }
 
+  /// How many separate contacts a piece has: of those that are closed, the ones of one contact zone count as one.
+  virtual Index separate_contacts(const Piece& piece) const {
+    Index closed = 0;
+    for (std::size_t k = 0; k < piece.contacts(); ++k) closed += piece[k] != 0 ? 1 : 0;
+    return closed;
+  }
+
   /// The piece whose guards suit a state that was reached along another branch: a flat part that has buckled, say.
   virtual Piece canonical_piece(const State& state) const { return state.piece; }
 };

@@ -35,7 +35,7 @@ def device(name: str, title: str, quantity: Quantity) -> Case:
 
 
 def lift_at_greatest_push(run: Run) -> float:
-    return run.event("displacement-limit", 0)["monitors"]["lift"]
+    return run.event("turning-point", 0)["monitors"]["lift"]
 
 
 def devices() -> list:
@@ -52,7 +52,7 @@ def devices() -> list:
     arm = 2400 * 5 * 1.5**3 / 12
     return [
         device("snap-fit", "Snap-fit", Quantity(
-            "greatest push by the way of the nose there", lambda run: monitor("push", "displacement-limit")(run) / lift_at_greatest_push(run),
+            "greatest push by the way of the nose there", lambda run: monitor("push", "turning-point")(run) / lift_at_greatest_push(run),
             0.5 * 3 * arm / 20**3 / (1 - 1.5 * 3 * 0.5 / 20), "t (3 EI/ℓ³)/(1 − 3 a t/(2 ℓ)) for a rigid nose and small slopes")),
         device("guidewire", "Guidewire in a bend", Quantity(
             "push far in the bend", landed("push", 60), wire / (2 * 58**2), "EI/(2 R²)")),
@@ -79,6 +79,6 @@ def devices() -> list:
         device("bow", "Bow pressed onto a floor", Quantity(
             "force at which contact spreads", monitor("press", "contact-spreads"), 2e5 * 20 / 12 / (bow * 100), "EI/(R a) of small slopes")),
         device("lattice", "Lattice of curved bars", Quantity(
-            "force at which the first row gives way", monitor("force", "displacement-limit"), 2 * cosine_beam(3 / 1.364) * nylon * 3 / 40**3,
+            "force at which the first row gives way", monitor("force", "turning-point"), 2 * cosine_beam(3 / 1.364) * nylon * 3 / 40**3,
             "two cosine beams by Qiu, Lang and Slocum 2004, small slopes")),
     ]

@@ -48,7 +48,7 @@ PICTURES = [
     Picture("thick", "Thick beam on a foundation, Essenburg's theory, order 2", "moment of first contact", "contact-opens",
             "A thick beam lifts off",
             "A thick beam on the same foundation: its middle lifts off again."),
-    Picture("lee", "Lee's frame", "first limit load", "displacement-limit",
+    Picture("lee", "Lee's frame", "first limit load", "turning-point",
             "Lee's frame",
             "A frame that snaps through and back: two limit points and two turning points of the displacement."),
     Picture("arch", "Deep arch of 215°, hinged and clamped", "first limit load", "limit-point",
@@ -81,7 +81,7 @@ PICTURES = [
             "Two bars at a right angle, the frame on which imperfection sensitivity was first measured."),
     Picture("diamond", "Diamond frame", "inwards at λ = 1", "end", "A diamond drawn out",
             "A hinged square drawn out at two corners."),
-    Picture("snap-fit", "Snap-fit", "greatest push by the way of the nose there", "displacement-limit", "A snap-fit",
+    Picture("snap-fit", "Snap-fit", "greatest push by the way of the nose there", "turning-point", "A snap-fit",
             "A catch moves under a hook: the push grows up its flat flank, vanishes on its top, and is negative where the hook snaps down the steep "
             "one. Backwards the same path is the removal, whose force is the greater by about what the steeper flank asks for."),
     Picture("guidewire", "Guidewire in a bend", "push far in the bend", "end", "A guidewire in a bend",
@@ -111,7 +111,7 @@ PICTURES = [
             "the program says that it does neither."),
     Picture("bow", "Bow pressed onto a floor", "force at which contact spreads", "end", "A bow pressed onto a floor",
             "The ends of a bow are pressed down to the floor, and it unrolls on it. The force grows without bounds as less of it stands off."),
-    Picture("lattice", "Lattice of curved bars", "force at which the first row gives way", "displacement-limit", "A lattice of curved bars",
+    Picture("lattice", "Lattice of curved bars", "force at which the first row gives way", "turning-point", "A lattice of curved bars",
             "A plate presses on two rows of curved bars, which give way one after the other. Both do so at the same force, and between "
             "them it falls to a tenth."),
 ]

@@ -76,10 +76,10 @@ std::unique_ptr<Element> make_heated_element(const MemberElement& at, const Ther
   if (at.member.theory == Theory::elastica)
     slender.order = at.member.order == 6 ? ElasticaOrder::six : ElasticaOrder::four;
   switch (at.member.theory) {
-    case Theory::classic:
+    case Theory::euler_bernoulli:
     case Theory::elastica:
       return std::make_unique<HeatedBeam>(slender_reference(at), slender, thermal);
-    case Theory::exact:
+    case Theory::reissner:
       return std::make_unique<HeatedReissnerBeam>(
           exact_reference(at), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()}, thermal);
     case Theory::truss:
@@ -93,12 +93,12 @@ std::unique_ptr<Element> make_heated_element(const MemberElement& at, const Ther
 std::unique_ptr<Element> make_element(const MemberElement& at) {
   const Section& section = at.member.section;
   switch (at.member.theory) {
-    case Theory::classic:
+    case Theory::euler_bernoulli:
       return std::make_unique<ClassicBeam>(beam_reference(at), section.EA(), section.EI());
     case Theory::elastica:
       return std::make_unique<ElasticaBeam>(slender_reference(at), section.EA(), section.EI(),
                                             at.member.order == 6 ? ElasticaOrder::six : ElasticaOrder::four);
-    case Theory::exact:
+    case Theory::reissner:
       return std::make_unique<ReissnerBeam>(
           exact_reference(at), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()});
     case Theory::essenburg:
@@ -127,7 +127,7 @@ void add_elements(const MemberDescription& member, const MemberMesh& mesh, const
   const auto make = [&](std::size_t k) {
     return thermal.is_zero() ? make_element(element(k)) : make_heated_element(element(k), thermal);
   };
-  const bool knows_places = member.theory == Theory::exact || member.theory == Theory::essenburg;
+  const bool knows_places = member.theory == Theory::reissner || member.theory == Theory::essenburg;
   if (!knows_places && element(0).is_like_all_others())
     elements.add(make(0), count);
   else
@@ -136,10 +136,10 @@ void add_elements(const MemberDescription& member, const MemberMesh& mesh, const
 
 std::unique_ptr<Element> make_load(const MemberElement& at, const Vec2& load) {
   switch (at.member.theory) {
-    case Theory::classic:
+    case Theory::euler_bernoulli:
     case Theory::elastica:
       return std::make_unique<BeamDistributedLoad>(beam_reference(at), load);
-    case Theory::exact:
+    case Theory::reissner:
       return std::make_unique<ExactDistributedLoad>(exact_reference(at), load);
     case Theory::essenburg:
       return std::make_unique<ExactDistributedLoad>(exact_reference(at), load, EssenburgBeam::unknowns_a_node);
@@ -152,10 +152,10 @@ std::unique_ptr<Element> make_load(const MemberElement& at, const Vec2& load) {
 std::unique_ptr<Element> make_axis_load(const MemberElement& at, const Vec2& load) {
   const auto turned = [&](double fraction) { return turned_load(at, load, fraction); };
   switch (at.member.theory) {
-    case Theory::classic:
+    case Theory::euler_bernoulli:
     case Theory::elastica:
       return std::make_unique<BeamAxisLoad>(slender_reference(at), load);
-    case Theory::exact:
+    case Theory::reissner:
       return std::make_unique<ExactDistributedLoad>(exact_reference(at), turned);
     case Theory::essenburg:
       return std::make_unique<ExactDistributedLoad>(exact_reference(at), turned, EssenburgBeam::unknowns_a_node);
@@ -167,10 +167,10 @@ std::unique_ptr<Element> make_axis_load(const MemberElement& at, const Vec2& loa
 
 std::unique_ptr<Element> make_foundation(const MemberElement& at, const FoundationLaw& law) {
   switch (at.member.theory) {
-    case Theory::classic:
+    case Theory::euler_bernoulli:
     case Theory::elastica:
       return std::make_unique<BeamFoundation>(slender_reference(at), law);
-    case Theory::exact:
+    case Theory::reissner:
       return std::make_unique<ExactFoundation>(exact_reference(at), law);
     case Theory::essenburg:
       return std::make_unique<ExactFoundation>(exact_reference(at), law, EssenburgBeam::unknowns_a_node);
@@ -183,10 +183,10 @@ std::unique_ptr<Element> make_foundation(const MemberElement& at, const Foundati
 std::unique_ptr<Element> make_pressure(const MemberElement& at, const Vec2& origin) {
   const Vec2 first = at.mesh.shape[at.k].position - origin;
   switch (at.member.theory) {
-    case Theory::classic:
+    case Theory::euler_bernoulli:
     case Theory::elastica:
       return std::make_unique<BeamPressure>(beam_reference(at), first);
-    case Theory::exact:
+    case Theory::reissner:
       return std::make_unique<ExactPressure>(exact_reference(at), first);
     case Theory::essenburg:
       return std::make_unique<ExactPressure>(exact_reference(at), first, EssenburgBeam::unknowns_a_node);

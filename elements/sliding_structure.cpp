@@ -210,7 +210,7 @@ SlidingStructure::Reaction SlidingStructure::reaction(const SlidingMesh& mesh, c
 
 bool StructureBuilder::can_slide() const {
   const auto is_slender = [](const MemberDescription& member) {
-    return member.theory == Theory::classic || member.theory == Theory::elastica;
+    return member.theory == Theory::euler_bernoulli || member.theory == Theory::elastica;
   };
   return added_elements_.empty() && std::all_of(descriptions_.begin(), descriptions_.end(), is_slender);
 }
@@ -294,7 +294,7 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
   structure->join_runs(
       with_terms, [this](Index node, Index rotation) { return carries_force_alone(node, rotation); }, alike);
   for (SlidingStructure::Run& strand : structure->runs_)
-    if (strand.theory == Theory::classic && strand.shape->is_straight() && !strand.carries_load() &&
+    if (strand.theory == Theory::euler_bernoulli && strand.shape->is_straight() && !strand.carries_load() &&
         !strand.carries_axis_load() && !strand.has_foundation() && strand.pressure.is_zero() &&
         strand.thermal.is_zero())
       strand.beams.emplace(*strand.shape, strand.section.EA(), strand.section.EI());

@@ -154,7 +154,7 @@ class SlidingStructure final : public SlidingBody {
     std::shared_ptr<const Axis> axis{};
     std::shared_ptr<const ImperfectAxis> shape{};  // of the axis
     bool perfect = true;
-    Theory theory = Theory::classic;
+    Theory theory = Theory::euler_bernoulli;
     int order = 2;
     Section section{};
     double length = 0.0, offset = 0.0;  // of the strand; where it begins on the axis

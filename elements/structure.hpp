@@ -28,7 +28,7 @@ namespace arcwall {
 /// of the Essenburg theory (see EssenburgNode) to members that go on straight there.
 enum class Freedom : std::uint8_t { x, z, rotation, thickness, thickness2 };
 
-enum class Theory { classic, elastica, exact, essenburg, truss };
+enum class Theory { euler_bernoulli, elastica, reissner, essenburg, truss };
 
 /// A load is multiplied by λ or held while λ varies.
 enum class LoadKind { proportional, constant };
@@ -43,7 +43,7 @@ struct MemberDescription {
   Index from = 0, to = 0;  ///< joints
   std::shared_ptr<const Axis> axis{};
   std::vector<SineDeviation> imperfection{};
-  Theory theory = Theory::classic;
+  Theory theory = Theory::euler_bernoulli;
   int order = 2;  ///< exact, essenburg: 1 or 2, the degree of the shape functions; elastica: 4 or 6, of convergence
   QuadraticTerm quadratic = QuadraticTerm::fixed;  ///< essenburg
   TrussStrain strain = TrussStrain::green;

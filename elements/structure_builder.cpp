@@ -17,7 +17,7 @@ namespace {
 Driven ramp_of(const Driven& value) { return {.constant = 0.0, .proportional = value.constant}; }
 
 bool has_middle_nodes(const MemberDescription& member) {
-  return (member.theory == Theory::exact || member.theory == Theory::essenburg) && member.order == 2;
+  return (member.theory == Theory::reissner || member.theory == Theory::essenburg) && member.order == 2;
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ void StructureBuilder::expect_members(std::size_t count) {
 
 Index StructureBuilder::add_member(MemberDescription member) {
   assert(member.elements >= 1 && member.axis != nullptr);
-  assert(member.theory != Theory::exact || ((member.order == 1 || member.order == 2) && member.section.GA() > 0.0));
+  assert(member.theory != Theory::reissner || ((member.order == 1 || member.order == 2) && member.section.GA() > 0.0));
   assert(member.theory != Theory::essenburg ||
          ((member.order == 1 || member.order == 2) && member.section.GA() > 0.0 && !member.section.points.empty()));
   assert(member.theory != Theory::elastica || member.order == 4 || member.order == 6);
@@ -277,7 +277,8 @@ std::vector<std::int32_t> StructureBuilder::turning_sets() const {
   sets.add(nodal_);
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     const MemberMesh& mesh = meshes_[m];
-    const bool is_slender = descriptions_[m].theory == Theory::classic || descriptions_[m].theory == Theory::elastica;
+    const bool is_slender =
+        descriptions_[m].theory == Theory::euler_bernoulli || descriptions_[m].theory == Theory::elastica;
     if (is_slender) continue;
     for (const auto& rotation : mesh.rotations)
       if (rotation) sets.join(*rotation, *mesh.rotations.front());

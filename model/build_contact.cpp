@@ -17,7 +17,7 @@ namespace {
 
 // Half the height of a member whose faces a wall is touched by; 0 where that is the axis.
 double faces_of(const deck::Wall& wall, const MemberMesh& mesh) {
-  return wall.acts_on == deck::ActsOn::axis || wall.outline ? 0.0 : 0.5 * mesh.height.value_or(0.0);
+  return wall.contact_surface == deck::ContactSurface::axis || wall.outline ? 0.0 : 0.5 * mesh.height.value_or(0.0);
 }
 
 // Offsets from the axis of the points that may touch.
@@ -36,7 +36,8 @@ std::string how_to_part(const deck::Wall& wall, const Penetration& found) {
   const std::string apart = "move the wall or the member apart";
   if (!found.everywhere) return apart;
   if (wall.outline)
-    return "the body is to the left of an outline's direction, or where `normal` or `keep` says: is the other side "
+    return "the body is to the left of an outline's direction, or where `normal` or `structure` says: is the other "
+           "side "
            "meant? Else " +
            apart;
   const bool above = wall.side == Side::above;
@@ -62,7 +63,7 @@ bool changes(const Candidate& candidate, const State& rest) {
   return gap.gradient.norm() > least;
 }
 
-bool acts_on_axis(const TouchAtRest& touch) { return touch.wall->acts_on == deck::ActsOn::axis; }
+bool acts_on_axis(const TouchAtRest& touch) { return touch.wall->contact_surface == deck::ContactSurface::axis; }
 
 // Why two walls that touch a node from both sides do not hold it as one contact, and what to do.
 struct NotOneContact {
@@ -73,7 +74,7 @@ std::optional<NotOneContact> not_one_contact(const TouchAtRest& a, const TouchAt
   constexpr double parallel = 1e-12;  // square of the angle between the walls
   if (!acts_on_axis(a) || !acts_on_axis(b))
     return NotOneContact{.why = "faces between walls without clearance part from them as soon as the section turns",
-                         .cure = "put both walls at the axis, with acts_on = \"axis\", or leave a clearance"};
+                         .cure = "put both walls at the axis, with contact_surface = \"axis\", or leave a clearance"};
   const RigidMotion motion = motion_of(*a.wall);
   if (!(motion == motion_of(*b.wall)) || motion.turn != 0.0)
     return NotOneContact{.why = "walls without clearance hold a node for good only where they move together, unturned",
@@ -249,7 +250,7 @@ void hold_between_walls(const deck::Deck& deck, StructureBuilder& builder) {
       if (!line) continue;
       for (std::size_t m = 0; m < deck.members.size(); ++m) {
         const deck::Member& member = deck.members[m];
-        const bool turns_with_axis = member.theory == Theory::classic || member.theory == Theory::elastica;
+        const bool turns_with_axis = member.theory == Theory::euler_bernoulli || member.theory == Theory::elastica;
         const MemberMesh& mesh = builder.mesh(static_cast<Index>(m));
         if (turns_with_axis && concerns(under, member.name) && concerns(over, member.name) && lies_on(*line, mesh))
           hold_rotations(deck, member, mesh, builder);
@@ -261,7 +262,7 @@ namespace {
 
 // How far the axis of a body stays off an outline; profiles are touched by the faces themselves.
 double kept_off(const deck::Wall& wall, double height) {
-  return wall.outline && wall.acts_on == deck::ActsOn::face ? 0.5 * height : 0.0;
+  return wall.outline && wall.contact_surface == deck::ContactSurface::face ? 0.5 * height : 0.0;
 }
 
 bool has_sharp_corners(const deck::Wall& wall) {
@@ -279,10 +280,10 @@ bool has_knife_edge(const deck::Wall& wall, const PinchedPlaces& known) {
 // Whether an outline can be touched by a member of some height at all; adds a problem if not.
 bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlaces& known, DeckProblems& problems) {
   if (!wall.outline) return true;
-  if (wall.acts_on == deck::ActsOn::face && !mesh.thickness.empty()) {
-    problems.add(wall.position, "wall.acts_on",
+  if (wall.contact_surface == deck::ContactSurface::face && !mesh.thickness.empty()) {
+    problems.add(wall.position, "wall.contact_surface",
                  "member \"" + mesh.name + "\" changes its thickness, which the distance from an outline does not know",
-                 "use acts_on = \"axis\", or a profile");
+                 "use contact_surface = \"axis\", or a profile");
     return false;
   }
   const double off = kept_off(wall, mesh.height.value_or(0.0));
@@ -292,7 +293,7 @@ bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlac
         wall.position, "wall.corner_radius",
         "the corners of the outline are sharp, and members touch it with their axes: that is modelled only where "
         "two corners hold an axis between them from the start, as knife edges, and contact slides",
-        "give a corner_radius, or let faces touch, with acts_on = \"face\"");
+        "give a corner_radius, or let faces touch, with contact_surface = \"face\"");
     return false;
   }
   double hollow = 0.0;
@@ -302,7 +303,7 @@ bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlac
                  fmt::format("the outline is hollow with a radius of {:.4g} somewhere, and member \"{}\" with half its "
                              "height, {:.4g}, does not fit into it",
                              1.0 / hollow, mesh.name, off),
-                 "make the outline's bends wider, or use acts_on = \"axis\"");
+                 "make the outline's bends wider, or use contact_surface = \"axis\"");
     return false;
   }
   return true;
@@ -336,9 +337,10 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
       const double off = kept_off(wall, mesh.height.value_or(0.0));
       std::shared_ptr<const Obstacle>& obstacle = obstacles[off];
       if (!obstacle) obstacle = obstacle_of(wall, off);
-      if (wall.acts_on == deck::ActsOn::face && !wall.outline && !mesh.rotations.front()) {
-        problems.add(wall.position, "wall.acts_on",
-                     "member \"" + mesh.name + "\" is a truss and has no faces that turn", "use acts_on = \"axis\"");
+      if (wall.contact_surface == deck::ContactSurface::face && !wall.outline && !mesh.rotations.front()) {
+        problems.add(wall.position, "wall.contact_surface",
+                     "member \"" + mesh.name + "\" is a truss and has no faces that turn",
+                     "use contact_surface = \"axis\"");
         continue;
       }
       for (const MemberSection& section : mesh.contact_sections())
@@ -483,7 +485,7 @@ std::vector<SlidingObstacle> sliding_obstacles(const deck::Deck& deck, const Sli
       SlidingObstacle obstacle{.name = wall.name,
                                .surface = obstacle_of(wall, off),
                                .unmoved = obstacle_of(unmoved, off),
-                               .on_face = wall.acts_on == deck::ActsOn::face && !wall.outline,
+                               .on_face = wall.contact_surface == deck::ContactSurface::face && !wall.outline,
                                .may_stop_rollers = may_stop_rollers(wall)};
       for (Index strand = 0; strand < structure.strands(); ++strand) {
         const bool keeps = kept_off(wall, 2.0 * structure.half_height(strand)) == off;

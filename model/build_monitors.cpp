@@ -60,7 +60,7 @@ std::string unit_of(deck::Component component, const deck::Units& units) {
       return unit_text(deck::unit::force, units);
     case deck::Component::reaction_moment:
     case deck::Component::moment:
-    case deck::Component::greatest_moment:
+    case deck::Component::max_moment:
       return unit_text(deck::unit::moment, units);
     case deck::Component::greatest_pressure:
       return unit_text(deck::unit::line_load, units);
@@ -203,8 +203,7 @@ SectionQuantity pressure_of(const deck::Foundation& foundation) {
 // The member and the quantity of which a monitor shows the greatest; empty of one that shows something else.
 std::optional<std::pair<std::string, SectionQuantity>> along_member(const deck::Deck& deck,
                                                                     const deck::Monitor& monitor) {
-  if (monitor.component == deck::Component::greatest_moment)
-    return std::pair(monitor.member, SectionQuantity(moment_at));
+  if (monitor.component == deck::Component::max_moment) return std::pair(monitor.member, SectionQuantity(moment_at));
   if (monitor.component != deck::Component::greatest_pressure) return std::nullopt;
   const auto& foundation = std::get<deck::Foundation>(deck::find(deck.springs, monitor.spring)->kind);
   return std::pair(foundation.member, pressure_of(foundation));
@@ -213,7 +212,7 @@ std::optional<std::pair<std::string, SectionQuantity>> along_member(const deck::
 std::shared_ptr<const Observable> greatest(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
                                            MemberGreatest::What what) {
   auto [member, quantity] = *along_member(deck, monitor);
-  const double negligible = monitor.component == deck::Component::greatest_moment
+  const double negligible = monitor.component == deck::Component::max_moment
                                 ? from.structure.force_roundoff() * from.structure.length_scale()
                                 : 0.0;
   return from.body.greatest(member_index(from, member), std::move(quantity), what, negligible);

@@ -52,9 +52,9 @@ bool is_at_rest(const Measured& from, const deck::Control& control) {
 std::vector<double> load_levels(const deck::Path& path) {
   std::vector<double> levels;
   double from = 0.0;
-  for (const deck::Landing& landing : path.land) {
-    if (landing.name != "lambda") continue;
-    for (const double value : landing.values) {
+  for (const deck::OutputValues& output : path.output_at) {
+    if (output.name != "lambda") continue;
+    for (const double value : output.values) {
       // A level that round-off alone keeps from being met needs no increment of its own.
       const int parts = std::max(1, static_cast<int>(std::ceil(std::abs((value - from) / path.step) - 1e-9)));
       for (int i = 1; i < parts; ++i) levels.push_back(from + (value - from) * i / parts);
@@ -75,7 +75,7 @@ TraceOptions trace_options(const deck::Deck& deck, const Measured& from, const s
   options.step.min = path.min_step;
   options.step.max = path.max_step;
   options.max_points = path.max_points;
-  options.stay = path.branches != BranchPolicy::follow;
+  options.stay = path.branches != BranchPolicy::most_stable;
   if (path.control) {
     options.control = shown_at(from, path.control->at, path.control->component);
     if (!options.control)
@@ -97,8 +97,8 @@ TraceOptions trace_options(const deck::Deck& deck, const Measured& from, const s
       options.target_values.push_back(
           {.quantity = std::move(q), .value = value, .stops = stops, .label = name + " = " + round_trip(value)});
   };
-  for (const deck::Landing& landing : path.land)
-    for (const double value : landing.values) mark(landing.name, value, false);
+  for (const deck::OutputValues& output : path.output_at)
+    for (const double value : output.values) mark(output.name, value, false);
   for (const deck::StopBounds& bounds : path.stop.bounds) {
     mark(bounds.name, bounds.low, true);
     mark(bounds.name, bounds.high, true);

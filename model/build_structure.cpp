@@ -67,7 +67,7 @@ Section section_of(const deck::Deck& deck, const deck::Member& member) {
   const deck::SectionProperties properties = deck::properties(described);
   Section section{.E = material.E, .A = properties.A, .I = properties.I, .height = properties.height};
   const bool essenburg = member.theory == Theory::essenburg;
-  if (member.theory != Theory::exact && !essenburg) return section;
+  if (member.theory != Theory::reissner && !essenburg) return section;
   section.G = material.E / (2.0 * (1.0 + material.nu.value()));
   if (essenburg) {
     section.shear_area = described.shear_correction.value_or(1.0) * properties.A;
@@ -99,7 +99,7 @@ void check_curvature(const deck::Member& member, const MemberDescription& descri
         member.position, "member." + member.name,
         fmt::format("at {} of its length the axis has a radius of {:.4g}, less than half the height of section {}",
                     double(i) / places, radius, member.section),
-        "bend the axis less, or take theory \"classic\" or \"elastica\"");
+        "bend the axis less, or take theory \"euler-bernoulli\" or \"elastica\"");
     return;
   }
 }
@@ -111,7 +111,7 @@ void check_magnitudes(const deck::Member& member, const MemberDescription& descr
   const double h = description.axis->length() / member.elements;
   const double EA = description.section.EA();
   const double EI = member.theory == Theory::truss ? EA * h * h : description.section.EI();
-  const bool shears = member.theory == Theory::exact || member.theory == Theory::essenburg;
+  const bool shears = member.theory == Theory::reissner || member.theory == Theory::essenburg;
   const double GA = shears ? description.section.GA() : EA;
   const auto far = [&](const std::string& name) { return places.ends.at(name).cwiseAbs().maxCoeff(); };
   const double height = description.section.height.value_or(0.0);
@@ -172,9 +172,9 @@ MemberDescription description_of(const deck::Deck& deck, const deck::Member& mem
   description.axis = make_axis(member, out.places.ends.at(member.from), out.places.ends.at(member.to));
   // A classic element moves without strain where one of the elastica does, and takes any bend of its axis; an exact
   // one where one of Essenburg's does, whose thickness has a stiffness of its own.
-  if (coarse && theory == Theory::elastica) description.theory = Theory::classic;
-  if (coarse && theory == Theory::essenburg) description.theory = Theory::exact;
-  if (coarse && description.theory == Theory::exact)
+  if (coarse && theory == Theory::elastica) description.theory = Theory::euler_bernoulli;
+  if (coarse && theory == Theory::essenburg) description.theory = Theory::reissner;
+  if (coarse && description.theory == Theory::reissner)
     description.section = balanced(description.section, description.axis->length());
   for (const deck::Imperfection& wave : member.imperfections)
     description.imperfection.push_back({.amplitude = wave.amplitude, .waves = wave.waves});
@@ -199,7 +199,7 @@ void add_members(const deck::Deck& deck, bool coarse, DeckProblems& problems, St
       problems.add(
           member.position, "member." + member.name + ".elements",
           fmt::format("a truss of {} elements is a chain of hinges that can move without strain", member.elements),
-          "use elements = 1, or theory = \"classic\"");
+          "use elements = 1, or theory = \"euler-bernoulli\"");
     if (member.theory == Theory::essenburg) check_curvature(member, descriptions[i], problems);
     out.places.members[member.name] = out.builder.add_member(std::move(descriptions[i]));
   }
@@ -432,7 +432,7 @@ void add_foundation(const deck::Deck& deck, const deck::Spring& spring, const de
     return problems.add(
         spring.position, "spring.on",
         "member \"" + foundation.member + "\" is a truss, which cannot carry the forces of a foundation",
-        "use theory \"classic\" or \"elastica\", or springs at its ends");
+        "use theory \"euler-bernoulli\" or \"elastica\", or springs at its ends");
   Vec2 stiffness(foundation.x, foundation.z);
   if (foundation.law) {
     auto law = std::make_shared<const SpringLaw>(foundation.law->law());

@@ -69,7 +69,7 @@ std::optional<FollowedEvent> followed(const System& system, const FoundEvent& fo
     return std::optional<FollowedEvent>();
   };
   const Event& event = found.event;
-  if (event.suspected) return refuse("the event is only suspected");
+  if (event.unconfirmed) return refuse("the event is unconfirmed");
   const bool at_change = is_at_change(found);
   if (event.kind == EventKind::branch_point) {
     const BranchPoint& point = *event.branching;

@@ -18,7 +18,7 @@ namespace {
 
 deck::Deck deck_with_curve(const RunDescription& description) {
   deck::Deck deck = deck::read_deck_text(description.deck_text, description.deck, description.assignments);
-  if (deck.curve && !deck.curve->over.empty()) return deck;
+  if (deck.curve && !deck.curve->parameter.empty()) return deck;
   throw InputError({Diagnostic{.file = description.deck,
                                .key = "curve",
                                .message = "the deck does not say which event is followed",

@@ -23,7 +23,7 @@ constexpr double steps_of_range = 100.0, longest_step = 0.04;  // of a curve [pa
 deck::DeckNumber number_that_varies(const deck::Deck& deck) {
   const Model checked(deck);
   require_curve(deck);
-  return std::get<deck::DeckNumber>(deck::number_of(deck, deck.curve->over));
+  return std::get<deck::DeckNumber>(deck::number_of(deck, deck.curve->parameter));
 }
 
 // At a cusp the critical eigenvalue's rate along the path vanishes, too, and what tells a second mode with it.
@@ -45,7 +45,7 @@ void drop_crossings_at_cusps(EventCurve& curve) {
 EventCurve described(const deck::Deck& deck, const Model& model, const deck::DeckNumber& number) {
   EventCurve curve{.deck = deck.source.file.substr(deck.source.file.rfind('/') + 1),
                    .title = deck.title,
-                   .key = deck.curve->over,
+                   .key = deck.curve->parameter,
                    .key_unit = deck::unit_text(number.unit, deck.units),
                    .event = deck.curve->event,
                    .number = deck.curve->number,
@@ -97,7 +97,7 @@ void CurveTracing::take_event(const FoundEvent& found) {
   if (!event) return;
   const double first = std::abs(family_.own().options().step.first);
   followed_ = {.event = *event,
-               .turning = asked().event == EventKind::displacement_limit ? found.event.label : "",
+               .turning = asked().event == EventKind::turning_point ? found.event.label : "",
                .lambda_scale = std::max(std::abs(found.event.state.lambda), first),
                .counts = {found.event.unstable_before, found.event.unstable_after}};
   make_system();
@@ -133,7 +133,7 @@ TraceOptions CurveTracing::trace_options() const {
   const auto key = std::make_shared<ParameterValue>();
   for (const double bound : asked().range)
     options.target_values.push_back({.quantity = key, .value = bound, .stops = true, .label = "range"});
-  for (const double value : asked().land)
+  for (const double value : asked().output_at)
     if (value != asked().range[0] && value != asked().range[1])
       options.target_values.push_back({.quantity = key, .value = value});
   const double scale = std::abs(reader_->crossing_value(start_));
@@ -214,7 +214,7 @@ void CurveTracing::add_end(Side& side, const BranchEnd& end, double sign) const 
                              end.reason != EndReason::max_points && end.reason != EndReason::max_time &&
                              end.reason != EndReason::interrupted;
   if (end.reason == EndReason::stop) special.why = "the range ends";
-  if (end.reason == EndReason::unsupported && !end.detail.empty() && !deck_is_wrong) {
+  if (end.reason == EndReason::not_modelled && !end.detail.empty() && !deck_is_wrong) {
     side.specials.push_back({.kind = CurveSpecialKind::crossing, .point = last, .why = end.detail});
     special.reason = EndReason::stop;
   }

@@ -53,7 +53,7 @@ std::string start_outside_bounds(const deck::Path& path) {
 bool wants_increments(const deck::Deck& deck) { return deck.path.method == deck::PathMethod::incremental; }
 
 bool may_slide(const deck::Deck& deck, const StructureBuilder& builder) {
-  return !deck.walls.empty() && points_of_contact(deck).points == deck::ContactPoints::sliding &&
+  return !deck.walls.empty() && points_of_contact(deck).points == deck::ContactPoints::moving &&
          deck.contact.method == ContactLaw::Method::rigid && !wants_increments(deck) && builder.can_slide();
 }
 
@@ -79,14 +79,14 @@ bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::
   if (deck.walls.empty() || points_of_contact(deck).points == deck::ContactPoints::nodes) return false;
   if (held != candidates.end()) {
     problems.add({}, "contact.points",
-                 "points = \"sliding\" knows no member that walls hold from both sides without clearance, as " +
+                 "points = \"moving\" knows no member that walls hold from both sides without clearance, as " +
                      held->label().wall + " does",
                  "use \"nodes\", or leave a clearance");
     return false;
   }
   if (may_slide(deck, builder)) return true;
   problems.add({}, "contact.points",
-               "points = \"sliding\" needs members whose contact forces are point forces, theory \"classic\" or "
+               "points = \"moving\" needs members whose contact forces are point forces, theory \"euler-bernoulli\" or "
                "\"elastica\" throughout, method \"multiplier\", and a path that is not incremental",
                "use \"nodes\"");
   return false;
@@ -106,7 +106,7 @@ void check_between_nodes(const deck::Deck& deck, const SlidingContact& contact, 
 void check_watched(const deck::Deck& deck, DeckProblems& problems) {
   for (const std::string& name : deck.path.watch) {
     const deck::Monitor& monitor = *deck::find(deck.monitors, name);
-    const bool moment = monitor.component == deck::Component::greatest_moment;
+    const bool moment = monitor.component == deck::Component::max_moment;
     if (moment || monitor.component == deck::Component::greatest_pressure)
       problems.add(deck.path.position, "path.watch",
                    "\"" + name + "\" is what is greatest along a member, which may turn where its place jumps",
@@ -120,7 +120,7 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
   const bool possible = structure.can_be_updated();
   if (!possible)
     problems.add(deck.path.position, "path.method",
-                 "method \"incremental\" needs members of theory \"classic\" or \"essenburg\" throughout",
+                 "method \"incremental\" needs members of theory \"euler-bernoulli\" or \"essenburg\" throughout",
                  "use \"spherical\"");
   for (const deck::Load& load : deck.loads)
     if (load.constant)

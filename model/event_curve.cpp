@@ -20,9 +20,9 @@ void check_curve(const deck::Deck& deck, DeckProblems& problems) {
     problems.add(curve.position, key, std::move(message), std::move(cure));
   };
   std::vector<std::string> keys = curve.worst;
-  if (!curve.over.empty()) keys.push_back(curve.over);
+  if (!curve.parameter.empty()) keys.push_back(curve.parameter);
   for (const std::string& key : keys) {
-    const char* const at = curve.over.empty() ? "curve.worst" : "curve.over";
+    const char* const at = curve.parameter.empty() ? "curve.worst" : "curve.parameter";
     const auto found = deck::number_of(deck, key);
     if (const auto* const none = std::get_if<deck::NoNumber>(&found))
       add(at, deck::in_quotes(key, 100) + " " + none->message, none->cure);
@@ -41,12 +41,12 @@ void require_curve(const deck::Deck& deck) {
     add("curve", "method \"incremental\" has no events that could be followed", "use method \"spherical\"");
   if (deck.path.events != EventSearch::locate)
     add("curve", "events that are not located are not followed", "write events = \"locate\"");
-  if (curve.event == EventKind::displacement_limit && deck.path.watch.empty())
+  if (curve.event == EventKind::turning_point && deck.path.watch.empty())
     add("curve.event", "no monitor is watched, so that none turns", "add watch = [\"MONITOR\"] to [path]");
-  const auto number = deck::number_of(deck, curve.over);
-  if (const auto* const found = std::get_if<deck::DeckNumber>(&number); found != nullptr && !curve.over.empty())
+  const auto number = deck::number_of(deck, curve.parameter);
+  if (const auto* const found = std::get_if<deck::DeckNumber>(&number); found != nullptr && !curve.parameter.empty())
     if (found->value < curve.range[0] || found->value > curve.range[1])
-      add("curve.range", fmt::format("the deck's own value of {}, {}, is outside", curve.over, found->value),
+      add("curve.range", fmt::format("the deck's own value of {}, {}, is outside", curve.parameter, found->value),
           "give a range that holds it");
   problems.raise();
 }

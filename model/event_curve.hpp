@@ -59,7 +59,7 @@ struct EventCurve {
   std::string problem{};                 ///< why there is no curve; empty otherwise
 };
 
-/// Whether `curve.over` and `curve.worst` name numbers, as problems of the deck.
+/// Whether `curve.parameter` and `curve.worst` name numbers, as problems of the deck.
 void check_curve(const deck::Deck& deck, DeckProblems& problems);
 
 /// Throws InputError where the event of `[curve]` cannot be followed for what the rest of the deck says; runs of it do

@@ -12,19 +12,21 @@ constexpr std::array event_kinds{EventKind::start,
                                  EventKind::contact_closes,
                                  EventKind::contact_opens,
                                  EventKind::contact_spreads,
-                                 EventKind::contact_gathers,
-                                 EventKind::contact_passes,
+                                 EventKind::contact_splits,
+                                 EventKind::contact_shrinks,
+                                 EventKind::contacts_merge,
+                                 EventKind::contact_transfers,
                                  EventKind::limit_point,
                                  EventKind::contact_limit_point,
-                                 EventKind::displacement_limit,
+                                 EventKind::turning_point,
                                  EventKind::branch_point,
                                  EventKind::user};
 
 constexpr std::array end_reasons{
-    EndReason::stop,       EndReason::closed_loop, EndReason::joined,      EndReason::branched,
-    EndReason::max_points, EndReason::max_time,    EndReason::interrupted, EndReason::min_step,
-    EndReason::singular,   EndReason::not_finite,  EndReason::no_ray,      EndReason::turning_control,
-    EndReason::wall_end,   EndReason::continuum,   EndReason::unsupported, EndReason::adrift};
+    EndReason::stop,       EndReason::closed_loop,        EndReason::reached_branch,  EndReason::switched_branch,
+    EndReason::max_points, EndReason::max_time,           EndReason::interrupted,     EndReason::min_step,
+    EndReason::singular,   EndReason::not_finite,         EndReason::no_continuation, EndReason::control_turns,
+    EndReason::wall_end,   EndReason::equilibrium_family, EndReason::not_modelled,    EndReason::rigid_body_motion};
 
 template <class List>
 std::optional<typename List::value_type> with_text(const List& list, std::string_view text) {
@@ -48,16 +50,20 @@ std::string_view to_text(EventKind kind) {
       return "contact-opens";
     case EventKind::contact_spreads:
       return "contact-spreads";
-    case EventKind::contact_gathers:
-      return "contact-gathers";
-    case EventKind::contact_passes:
-      return "contact-passes";
+    case EventKind::contact_splits:
+      return "contact-splits";
+    case EventKind::contact_shrinks:
+      return "contact-shrinks";
+    case EventKind::contacts_merge:
+      return "contacts-merge";
+    case EventKind::contact_transfers:
+      return "contact-transfers";
     case EventKind::limit_point:
       return "limit-point";
     case EventKind::contact_limit_point:
       return "contact-limit-point";
-    case EventKind::displacement_limit:
-      return "displacement-limit";
+    case EventKind::turning_point:
+      return "turning-point";
     case EventKind::branch_point:
       return "branch-point";
     case EventKind::user:
@@ -73,10 +79,10 @@ std::string_view to_text(EndReason reason) {
       return "stop";
     case EndReason::closed_loop:
       return "closed_loop";
-    case EndReason::joined:
-      return "joined";
-    case EndReason::branched:
-      return "branched";
+    case EndReason::reached_branch:
+      return "reached_branch";
+    case EndReason::switched_branch:
+      return "switched_branch";
     case EndReason::max_points:
       return "max_points";
     case EndReason::max_time:
@@ -89,18 +95,18 @@ std::string_view to_text(EndReason reason) {
       return "singular";
     case EndReason::not_finite:
       return "not_finite";
-    case EndReason::no_ray:
-      return "no_ray";
-    case EndReason::turning_control:
-      return "turning_control";
+    case EndReason::no_continuation:
+      return "no_continuation";
+    case EndReason::control_turns:
+      return "control_turns";
     case EndReason::wall_end:
       return "wall_end";
-    case EndReason::continuum:
-      return "family";
-    case EndReason::unsupported:
-      return "unsupported";
-    case EndReason::adrift:
-      return "adrift";
+    case EndReason::equilibrium_family:
+      return "equilibrium_family";
+    case EndReason::not_modelled:
+      return "not_modelled";
+    case EndReason::rigid_body_motion:
+      return "rigid_body_motion";
   }
   assert(false);
   return {};
@@ -121,18 +127,20 @@ std::string_view to_text(Stability stability) {
 
 std::string_view to_text(BranchType type) {
   switch (type) {
-    case BranchType::symmetric:
-      return "symmetric";
-    case BranchType::asymmetric:
-      return "asymmetric";
+    case BranchType::pitchfork:
+      return "pitchfork";
+    case BranchType::transcritical:
+      return "transcritical";
     case BranchType::one_sided:
       return "one-sided";
-    case BranchType::undetermined:
-      return "undetermined";
+    case BranchType::multiple:
+      return "multiple";
   }
   assert(false);
   return {};
 }
+
+std::string_view to_text(Extremum extremum) { return extremum == Extremum::maximum ? "maximum" : "minimum"; }
 
 std::optional<EventKind> event_kind(std::string_view text) { return with_text(event_kinds, text); }
 
@@ -143,14 +151,16 @@ bool changes_contact(EventKind kind) {
     case EventKind::contact_closes:
     case EventKind::contact_opens:
     case EventKind::contact_spreads:
-    case EventKind::contact_gathers:
-    case EventKind::contact_passes:
+    case EventKind::contact_splits:
+    case EventKind::contact_shrinks:
+    case EventKind::contacts_merge:
+    case EventKind::contact_transfers:
       return true;
     case EventKind::start:
     case EventKind::end:
     case EventKind::limit_point:
     case EventKind::contact_limit_point:
-    case EventKind::displacement_limit:
+    case EventKind::turning_point:
     case EventKind::branch_point:
     case EventKind::user:
       return false;
@@ -165,10 +175,10 @@ std::string_view explanation(EndReason reason) {
       return "a bound of the deck was met";
     case EndReason::closed_loop:
       return "the branch closed";
-    case EndReason::joined:
+    case EndReason::reached_branch:
       return "a branch point of another branch was reached";
-    case EndReason::branched:
-      return "the path goes on along another branch";
+    case EndReason::switched_branch:
+      return "the path continues along another branch";
     case EndReason::max_points:
       return "the limit on points was met";
     case EndReason::max_time:
@@ -176,23 +186,23 @@ std::string_view explanation(EndReason reason) {
     case EndReason::interrupted:
       return "the run was interrupted";
     case EndReason::min_step:
-      return "no step above the least length succeeds";
+      return "no step above path.min_step converges";
     case EndReason::singular:
-      return "the equations are singular";
+      return "the tangent stiffness is singular";
     case EndReason::not_finite:
       return "the numbers are not finite";
-    case EndReason::no_ray:
-      return "no equilibrium leaves a change of contact";
-    case EndReason::turning_control:
+    case EndReason::no_continuation:
+      return "no equilibrium continues the path beyond a change of contact";
+    case EndReason::control_turns:
       return "the controlled quantity turns back";
     case EndReason::wall_end:
       return "a contact reached the end of its wall";
-    case EndReason::continuum:
-      return "a continuum of equilibria lies ahead";
-    case EndReason::unsupported:
-      return "something lies ahead that is not modelled";
-    case EndReason::adrift:
-      return "a body that nothing holds was pushed away";
+    case EndReason::equilibrium_family:
+      return "a one-parameter family of equilibria lies ahead";
+    case EndReason::not_modelled:
+      return "the path reaches a contact configuration that is not modelled";
+    case EndReason::rigid_body_motion:
+      return "a body that neither supports nor contact hold was pushed away";
   }
   assert(false);
   return {};
@@ -202,35 +212,34 @@ std::string_view what_to_try(EndReason reason) {
   switch (reason) {
     case EndReason::stop:
     case EndReason::closed_loop:
-    case EndReason::joined:
-    case EndReason::branched:
+    case EndReason::reached_branch:
+    case EndReason::switched_branch:
     case EndReason::max_points:
     case EndReason::max_time:
     case EndReason::interrupted:
       return {};
     case EndReason::min_step:
-      return "a finer mesh (member.NAME.elements), or a smaller path.max_step; --verbose writes steps.jsonl, which "
-             "says why each step was cut back";
+      return "a finer mesh (member.NAME.elements) or a smaller path.max_step; --verbose writes steps.jsonl with the "
+             "outcome of each attempted step";
     case EndReason::singular:
-      return "a small imperfection, so that the path has one way on; or a finer mesh";
+      return "a small imperfection, so that one branch is left; or a finer mesh";
     case EndReason::not_finite:
-      return "a smaller path.max_step; look whether a stiffness or a load of the deck is off by powers of ten";
-    case EndReason::no_ray:
-      return "a finer mesh, or a small imperfection: several contacts change at one place and none of the ways on "
-             "holds";
-    case EndReason::turning_control:
+      return "a smaller path.max_step; check the orders of magnitude of stiffnesses and loads";
+    case EndReason::no_continuation:
+      return "a finer mesh, or a small imperfection: several contacts change at one point, and no continuation "
+             "direction was found";
+    case EndReason::control_turns:
       return "path.method = \"spherical\", which follows the path through turning points";
     case EndReason::wall_end:
-      return "a longer wall, an outline that goes all around, or a bound in path.stop before its end";
-    case EndReason::continuum:
-      return "a small imperfection, which singles one equilibrium of the continuum out; or contact.points = \"nodes\", "
-             "where loads depend on the mesh: compare several numbers of elements";
-    case EndReason::unsupported:
-      return "more elements for the members (member.NAME.elements), where they bend much in one; else contact.points = "
-             "\"nodes\" or contact.method = \"penalty\", which have no such limit, but contact at nodes: loads then "
-             "depend on the mesh, so compare several numbers of elements";
-    case EndReason::adrift:
-      return "a support or a wall that holds the body there; or [[prescribed]], which moves it instead of a load";
+      return "a longer wall, a closed outline, or a bound in path.stop before the end of the wall";
+    case EndReason::equilibrium_family:
+      return "a small imperfection, or path.equilibrium_family = \"symmetric\"; or contact.points = \"nodes\", and "
+             "check that the loads converge with the number of elements";
+    case EndReason::not_modelled:
+      return "increase member.NAME.elements; if that does not help, set contact.points = \"nodes\" or contact.method = "
+             "\"penalty\", and check that the loads converge with the number of elements";
+    case EndReason::rigid_body_motion:
+      return "a support or a wall that holds the body, or [[prescribed]] instead of the load";
   }
   assert(false);
   return {};

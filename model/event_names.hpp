@@ -17,8 +17,11 @@ std::string_view to_text(EndReason reason);
 /// `stable`, `unstable` or `undecided`.
 std::string_view to_text(Stability stability);
 
-/// `symmetric`, `asymmetric`, `one-sided` or `undetermined`.
+/// `pitchfork`, `transcritical`, `one-sided` or `multiple`.
 std::string_view to_text(BranchType type);
+
+/// `maximum` or `minimum`.
+std::string_view to_text(Extremum extremum);
 
 /// The kind of that name, or nothing.
 std::optional<EventKind> event_kind(std::string_view text);
@@ -26,7 +29,7 @@ std::optional<EventKind> event_kind(std::string_view text);
 /// The reason of that name, or nothing.
 std::optional<EndReason> end_reason(std::string_view text);
 
-/// contact-closes or contact-opens.
+/// Whether contacts change at such an event: contact-closes, contact-splits, …
 bool changes_contact(EventKind kind);
 
 /// What a reason means, in a sentence without a full stop.

@@ -32,7 +32,7 @@ bool EventHunt::advance() {
       return false;
     }
   if (auto why = model_.adrift(step->arc.to.state))
-    explorer_->stop({.reason = EndReason::adrift, .detail = std::move(*why)});
+    explorer_->stop({.reason = EndReason::rigid_body_motion, .detail = std::move(*why)});
   return true;
 }
 

@@ -127,8 +127,9 @@ std::string LooseHolds::warning(const deck::Units& units) const {
                                         : "z");
   }
   return fmt::format(
-      "no support holds the structure against moving as a whole, contact alone may: where neither contact "
-      "nor a load says where it goes it is held where it is, by springs of {:.3g} {} at {}",
+      "the supports leave rigid-body motions free, and only contact can restrain them: stabilising springs of {:.3g} "
+      "{} "
+      "at {} were added",
       stiffness(), unit_text(deck::unit::line_load, units), places);
 }
 

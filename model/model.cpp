@@ -135,7 +135,7 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
       if (std::string warning = smoothed_law(spring); !warning.empty()) warnings_.push_back(std::move(warning));
   const auto turns = [](const MemberMesh& mesh) { return mesh.rotations.front().has_value(); };
   if (is_unbounded(deck_->path))
-    warnings_.push_back("nothing in [path.stop] ends the path: it goes on to path.max_points = " +
+    warnings_.push_back("no bound in [path.stop] ends the path: it continues to path.max_points = " +
                         std::to_string(deck_->path.max_points) +
                         ", the default, whatever λ is then; give bounds, as stop = { lambda = [-1.0, 10.0] }");
   if (const std::string warning = start_outside_bounds(deck_->path); !warning.empty() && !wants_increments(*deck_))
@@ -201,8 +201,8 @@ std::optional<std::string> Model::adrift(const State& state) const {
     for (const Freedom direction : {Freedom::x, Freedom::z})
       squared += std::pow(body_->motion(structure_->freedom(held_[i], direction))->value(state), 2.0);
     if (squared <= std::pow(farthest * structure_->length_scale(), 2.0)) continue;
-    return "nothing holds the body at \"" + to_text(loose_holds_.holds[i].at) + "\", which has moved by more than " +
-           std::to_string(farthest) + " times the size of the structure";
+    return "neither supports nor contact hold the body at \"" + to_text(loose_holds_.holds[i].at) +
+           "\", which has moved by more than " + std::to_string(farthest) + " times the size of the structure";
   }
   return std::nullopt;
 }
@@ -233,7 +233,7 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
       ContactScales of_body = scales;
       of_body.slack = stiffness_of_holds * farthest * structure_->length_scale();
       return std::make_unique<SlidingContact>(structure, sliding_obstacles(deck, structure), of_body,
-                                              deck.path.continuum);
+                                              deck.path.equilibrium_family);
     };
     sliding_ = on(*sliding_structure_, *deck_, loose_holds_.stiffness());
     if (!ramp) return;

@@ -34,8 +34,8 @@ struct RecordPoint {
   double lambda = 0.0;
   std::vector<double> monitors{};  ///< one a column of the record
   StabilityCount count{};
-  std::optional<Index> unstable_dead{};  ///< see Model::unstable_under_dead_load()
-  Index contacts = 0;                    ///< closed
+  std::optional<Index> unstable_load_control{};  ///< see Model::unstable_under_dead_load()
+  Index contacts = 0;                            ///< closed
   double energy = 0.0;
   int iterations = 0;
   double residual = 0.0;             ///< relative
@@ -58,40 +58,40 @@ struct RecordSensitivity {
   std::string why_none{};         ///< then
 };
 
-/// A contact of a landing, or a stretch of contact.
+/// A contact point or a contact zone.
 struct RecordStretch {
   ContactLabel label{};  ///< of its first point
-  bool is_line = false;
+  bool is_zone = false;
   double force = 0.0;  ///< in sum [force]
 };
 
-struct RecordWayBack;
+struct RecordReturn;
 
 /// Where a structure falls to behind an event, at the same λ.
-struct RecordLanding {
+struct RecordJump {
   std::string reason{},
-      why{};  ///< `falls_away`, `not_found` or `several`, and in words why; empty where it comes to rest
+      why{};  ///< `no_equilibrium`, `not_found` or `two_destinations`, and in words why; empty where it comes to rest
   double lambda = 0.0;
   std::vector<double> monitors{};
   std::vector<RecordStretch> contacts{};  ///< along the members
-  std::string word{};                     ///< the walls of these, `upper lower upper`; `upper=` of a stretch
+  std::string contact_pattern{};          ///< the walls of these, `upper lower upper`; `upper=` of a stretch
   double energy = 0.0;                    ///< total potential [force·length]
-  double released = 0.0;                  ///< energy before less energy behind [force·length]
+  double energy_released = 0.0;           ///< energy before less energy behind [force·length]
   std::optional<Index> unstable{};
-  std::optional<Index> on_branch{};             ///< the branch that passes through the state, if one does
-  double arc = 0.0;                             ///< along it
-  std::size_t point = 0;                        ///< the last point of the record before it
-  std::shared_ptr<const RecordWayBack> back{};  ///< λ taken back from there; null: no loss of stability is known
-  std::optional<double> loop{};                 ///< energy lost in a closed loop [force·length]
-  std::vector<RecordLanding> several{};         ///< of `several`: in one sense of the mode and in the other
+  std::optional<Index> on_branch{};                 ///< the branch that passes through the state, if one does
+  double arc = 0.0;                                 ///< along it
+  std::size_t point = 0;                            ///< the last point of the record before it
+  std::shared_ptr<const RecordReturn> on_return{};  ///< λ taken back from there; null: no loss of stability is known
+  std::optional<double> energy_dissipated{};        ///< energy lost in a closed loop [force·length]
+  std::vector<RecordJump> destinations{};  ///< of `two_destinations`: in one sense of the mode and in the other
 };
 
 /// Where the state that was fallen to loses its stability as λ goes back.
-struct RecordWayBack {
+struct RecordReturn {
   double lambda = 0.0;
   EventKind kind = EventKind::limit_point;
   std::vector<double> monitors{};
-  std::shared_ptr<const RecordLanding> landing{};
+  std::shared_ptr<const RecordJump> jump{};
 };
 
 struct RecordEvent {
@@ -103,21 +103,22 @@ struct RecordEvent {
   double lambda = 0.0;
   std::vector<double> monitors{};
   std::optional<Index> unstable_before{}, unstable_after{};
-  std::optional<Index> unstable_dead{};     ///< of its point
-  double residual = 0.0;                    ///< relative
-  double localised = 0.0;                   ///< half-width in λ of what is left uncertain
-  std::vector<RecordContact> contacts{};    ///< of a change of contact
-  std::optional<std::string> monitor{};     ///< of a displacement limit
-  std::optional<BranchEnd> branch_end{};    ///< of an end
+  std::optional<Index> unstable_load_control{};  ///< of its point
+  double residual = 0.0;                         ///< relative
+  double lambda_uncertainty = 0.0;               ///< half-width in λ of what is left uncertain
+  std::vector<RecordContact> contacts{};         ///< of a change of contact
+  std::optional<Extremum> extremum{};            ///< of λ, at a limit point
+  std::optional<std::string> monitor{};          ///< of a turning point
+  std::optional<BranchEnd> branch_end{};         ///< of an end
   std::optional<Continuum> continuum{};     ///< of a change of contact: the branch keeps to one member from here on
   std::optional<BranchType> branch_type{};  ///< of a branch point
   Index multiplicity = 1;                   ///< of a branch point: critical modes
-  bool suspected = false;                   ///< zero is touched without a change of sign, as nearly as can be told
-  bool discretisation = false;              ///< of a branch point that only contact at nodes makes
+  bool unconfirmed = false;                 ///< zero is touched without a change of sign, as nearly as can be told
+  bool mesh_artefact = false;               ///< of a branch point that only contact at nodes makes
   std::vector<Index> branches{};            ///< that leave a branch point
   std::vector<double> mode{};  ///< rates of the monitors along the critical mode of a branch point; may be empty
-  std::vector<RecordSensitivity> sensitivity{};    ///< by the deck's numbers of `path.sensitivity`, in their order
-  std::shared_ptr<const RecordLanding> landing{};  ///< null: the structure does not fall, or that was not asked for
+  std::vector<RecordSensitivity> sensitivity{};  ///< by the deck's numbers of `path.sensitivity`, in their order
+  std::shared_ptr<const RecordJump> jump{};      ///< null: the structure does not fall, or that was not asked for
 };
 
 /// What became of a try to find an equilibrium that no traced branch passes.
@@ -142,7 +143,7 @@ enum class FoundFate {
 
 /// An equilibrium that was found at some λ.
 struct RecordFound {
-  std::string word{};  ///< its contacts, as of a landing
+  std::string contact_pattern{};  ///< its contacts, as of a jump
   std::vector<double> monitors{};
   double energy = 0.0;
   std::optional<Index> unstable{};
@@ -163,7 +164,7 @@ struct RecordBranch {
   Index stage = 0;                ///< counts from 0
   std::optional<Index> parent{};  ///< the branch it leaves
   std::optional<Index> origin{};  ///< the event at which it does
-  bool mirrored = false;          ///< its mirror image leaves there too and is not traced
+  bool mirror_image = false;      ///< its mirror image leaves there too and is not traced
   bool found = false;             ///< it begins at an equilibrium that was found beside the other branches
   Index points = 0;
   double least_lambda = infinity, greatest_lambda = -infinity;  ///< of its points

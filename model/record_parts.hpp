@@ -18,7 +18,7 @@ void parts(Archive& archive, RecordForce& force) {
 
 template <typename Archive>
 void parts(Archive& archive, RecordPoint& point) {
-  archive(point.branch, point.step, point.arc, point.lambda, point.monitors, point.count, point.unstable_dead,
+  archive(point.branch, point.step, point.arc, point.lambda, point.monitors, point.count, point.unstable_load_control,
           point.contacts, point.energy, point.iterations, point.residual, point.event, point.forces, point.state);
 }
 
@@ -34,7 +34,7 @@ void parts(Archive& archive, RecordSensitivity& sensitivity) {
 
 template <typename Archive>
 void parts(Archive& archive, RecordStretch& stretch) {
-  archive(stretch.label, stretch.is_line, stretch.force);
+  archive(stretch.label, stretch.is_zone, stretch.force);
 }
 
 /// What a record alone owns is kept as what may be missing.
@@ -47,29 +47,30 @@ void keep_owned(Archive& archive, std::shared_ptr<const T>& owned) {
 }
 
 template <typename Archive>
-void parts(Archive& archive, RecordWayBack& back);
+void parts(Archive& archive, RecordReturn& back);
 
 template <typename Archive>
-void parts(Archive& archive, RecordLanding& landing) {
-  archive(landing.reason, landing.why, landing.lambda, landing.monitors, landing.contacts, landing.word, landing.energy,
-          landing.released, landing.unstable, landing.on_branch, landing.arc, landing.point, landing.loop,
-          landing.several);
-  keep_owned(archive, landing.back);
+void parts(Archive& archive, RecordJump& jump) {
+  archive(jump.reason, jump.why, jump.lambda, jump.monitors, jump.contacts, jump.contact_pattern, jump.energy,
+          jump.energy_released, jump.unstable, jump.on_branch, jump.arc, jump.point, jump.energy_dissipated,
+          jump.destinations);
+  keep_owned(archive, jump.on_return);
 }
 
 template <typename Archive>
-void parts(Archive& archive, RecordWayBack& back) {
+void parts(Archive& archive, RecordReturn& back) {
   archive(back.lambda, back.kind, back.monitors);
-  keep_owned(archive, back.landing);
+  keep_owned(archive, back.jump);
 }
 
 template <typename Archive>
 void parts(Archive& archive, RecordEvent& event) {
   archive(event.id, event.kind, event.branch, event.step, event.arc, event.lambda, event.monitors,
-          event.unstable_before, event.unstable_after, event.unstable_dead, event.residual, event.localised,
-          event.contacts, event.monitor, event.branch_end, event.branch_type, event.multiplicity, event.suspected,
-          event.discretisation, event.branches, event.mode, event.sensitivity, event.continuum);
-  keep_owned(archive, event.landing);
+          event.unstable_before, event.unstable_after, event.unstable_load_control, event.residual,
+          event.lambda_uncertainty, event.contacts, event.extremum, event.monitor, event.branch_end, event.branch_type,
+          event.multiplicity, event.unconfirmed, event.mesh_artefact, event.branches, event.mode, event.sensitivity,
+          event.continuum);
+  keep_owned(archive, event.jump);
 }
 
 template <typename Archive>
@@ -79,7 +80,7 @@ void parts(Archive& archive, RecordBranchPoint& point) {
 
 template <typename Archive>
 void parts(Archive& archive, RecordBranch& branch) {
-  archive(branch.id, branch.stage, branch.parent, branch.origin, branch.mirrored, branch.found, branch.points,
+  archive(branch.id, branch.stage, branch.parent, branch.origin, branch.mirror_image, branch.found, branch.points,
           branch.least_lambda, branch.greatest_lambda, branch.end);
 }
 
@@ -87,7 +88,7 @@ constexpr std::int64_t greatest(FoundFate) { return static_cast<std::int64_t>(Fo
 
 template <typename Archive>
 void parts(Archive& archive, RecordFound& found) {
-  archive(found.word, found.monitors, found.energy, found.unstable, found.fate, found.branches);
+  archive(found.contact_pattern, found.monitors, found.energy, found.unstable, found.fate, found.branches);
 }
 
 template <typename Archive>

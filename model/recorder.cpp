@@ -70,7 +70,7 @@ Recorder::Recorder(const System& system, Record& record, const BranchRecord& bra
 void Recorder::begin(const BranchRecord& branch) {
   RecordBranch added{.id = static_cast<Index>(branch_),
                      .stage = model_ == nullptr ? 0 : model_->stage(),
-                     .mirrored = branch.mirrored,
+                     .mirror_image = branch.mirror_image,
                      .found = branch.found};
   if (branch.parent) added.parent = *branch.parent;
   const auto same = [&](const RecordBranchPoint& known) { return known.point == branch.origin; };
@@ -84,19 +84,20 @@ void Recorder::begin(const BranchRecord& branch) {
 
 void Recorder::add(const Arc& arc) {
   const PathPoint& to = arc.to;
-  record_.points.push_back({.branch = branch().id,
-                            .step = branch().points,
-                            .arc = to.arc,
-                            .lambda = to.state.lambda,
-                            .monitors = values(model_, to.state),
-                            .count = to.count,
-                            .unstable_dead = model_ == nullptr ? std::nullopt : model_->unstable_under_dead_load(to),
-                            .contacts = model_ == nullptr ? 0 : model_->closed_contacts(to.state),
-                            .energy = system_.energy(to.state),
-                            .iterations = to.iterations,
-                            .residual = to.residual,
-                            .forces = forces_at(model_, to.state),
-                            .state = to.state});
+  record_.points.push_back(
+      {.branch = branch().id,
+       .step = branch().points,
+       .arc = to.arc,
+       .lambda = to.state.lambda,
+       .monitors = values(model_, to.state),
+       .count = to.count,
+       .unstable_load_control = model_ == nullptr ? std::nullopt : model_->unstable_under_dead_load(to),
+       .contacts = model_ == nullptr ? 0 : model_->closed_contacts(to.state),
+       .energy = system_.energy(to.state),
+       .iterations = to.iterations,
+       .residual = to.residual,
+       .forces = forces_at(model_, to.state),
+       .state = to.state});
   ++branch().points;
   branch().least_lambda = std::min(branch().least_lambda, to.state.lambda);
   branch().greatest_lambda = std::max(branch().greatest_lambda, to.state.lambda);
@@ -112,10 +113,10 @@ void Recorder::end(const BranchEnd& end) {
   if (branch().points == 0) return;
   const RecordPoint& last = record_.points.back();
   // It may stand on an event, and is no surer than that.
-  double localised = 0.0;
+  double lambda_uncertainty = 0.0;
   for (auto event = record_.events.rbegin(); event != record_.events.rend(); ++event) {
     if (event->branch != branch().id || event->step != last.step) break;
-    localised = std::max(localised, event->localised);
+    lambda_uncertainty = std::max(lambda_uncertainty, event->lambda_uncertainty);
   }
   add_event({.kind = EventKind::end,
              .arc = last.arc,
@@ -124,7 +125,7 @@ void Recorder::end(const BranchEnd& end) {
              .unstable_before = last.count.unstable,
              .unstable_after = last.count.unstable,
              .residual = last.residual,
-             .localised = localised,
+             .lambda_uncertainty = lambda_uncertainty,
              .branch_end = end});
 }
 
@@ -136,16 +137,17 @@ RecordEvent Recorder::recorded(const Event& event, const State& at) const {
                      .unstable_before = event.unstable_before,
                      .unstable_after = event.unstable_after,
                      .residual = event.residual,
-                     .localised = event.localised,
+                     .lambda_uncertainty = event.lambda_uncertainty,
+                     .extremum = event.extremum,
                      .continuum = event.continuum,
-                     .suspected = event.suspected};
+                     .unconfirmed = event.unconfirmed};
   if (const auto origin = record_.branches[branch_].origin; event.kind == EventKind::start && origin)
-    record.localised = record_.events[static_cast<std::size_t>(*origin)].localised;
-  if (event.kind == EventKind::displacement_limit) record.monitor = event.label;
+    record.lambda_uncertainty = record_.events[static_cast<std::size_t>(*origin)].lambda_uncertainty;
+  if (event.kind == EventKind::turning_point) record.monitor = event.label;
   if (event.branching) {
     record.branch_type = event.branching->type;
     record.multiplicity = event.branching->multiplicity;
-    record.discretisation = event.branching->discretisation;
+    record.mesh_artefact = event.branching->mesh_artefact;
     record.mode = mode_rates(model_, *event.branching);
   }
   if (model_ == nullptr || !changes_contact(event.kind)) return record;
@@ -161,7 +163,7 @@ void Recorder::add_event(RecordEvent event) {
   event.branch = branch().id;
   event.step = branch().points - 1;
   RecordPoint& point = record_.points.back();
-  event.unstable_dead = point.unstable_dead;
+  event.unstable_load_control = point.unstable_load_control;
   if (!point.event || changes_contact(*point.event) || !changes_contact(event.kind)) point.event = event.kind;
   record_.events.push_back(std::move(event));
 }

@@ -9,7 +9,7 @@
 #include "continuation/answers/equilibrium_at.hpp"
 #include "continuation/tracer.hpp"
 #include "core/algebra/near_null.hpp"
-#include "model/contact_words.hpp"
+#include "model/contact_pattern.hpp"
 #include "model/element_slopes.hpp"
 #include "model/event_names.hpp"
 #include "model/path_at_lambda.hpp"
@@ -259,7 +259,7 @@ std::vector<double> spread_over(const Record& record) {
 }
 
 RecordFound told(const Model& model, const CountedState& found) {
-  RecordFound record{.word = word_of(stretches_of(model, found.state)),
+  RecordFound record{.contact_pattern = contact_pattern_of(stretches_of(model, found.state)),
                      .energy = model.system().energy(found.state),
                      .unstable = found.count.unstable};
   for (const MonitorColumn& column : model.monitors()) record.monitors.push_back(column.quantity->value(found.state));
@@ -345,10 +345,8 @@ std::optional<BranchEnd> end_of_found_branch(const Model& model, const Record& r
   const RecordBranch& branch = record.branches.back();
   if (!branch.found) return std::nullopt;
   if (!is_resolved(model, record.points.back().state))
-    return BranchEnd{.reason = EndReason::unsupported,
-                     .detail =
-                         "an element is bent so far there that this mesh does not tell what lies ahead; give the "
-                         "members more elements"};
+    return BranchEnd{.reason = EndReason::not_modelled,
+                     .detail = "an element bends too far there for this mesh; give the members more elements"};
   if (branch.points < fewest) return std::nullopt;
   const std::size_t last = record.points.size() - 2;
   const double lambda = record.points[last + 2 - static_cast<std::size_t>(branch.points)].lambda;  // where it began
@@ -368,8 +366,8 @@ std::optional<BranchEnd> end_of_found_branch(const Model& model, const Record& r
     const Index other = record.points[point].branch;
     if (other == branch.id)
       return BranchEnd{.reason = EndReason::closed_loop, .detail = "the branch came back to its start"};
-    return BranchEnd{.reason = EndReason::joined,
-                     .detail = "goes on along branch " + std::to_string(other),
+    return BranchEnd{.reason = EndReason::reached_branch,
+                     .detail = "continues along branch " + std::to_string(other),
                      .partner = static_cast<int>(other)};
   }
   return std::nullopt;
@@ -397,7 +395,7 @@ std::optional<BranchEnd> end_where_it_walks_back(const Model& model, const Recor
   if (before.empty()) return std::nullopt;
   const auto there = at_crossing(model, record, before.back(), last.lambda);
   if (!there || !is_one(mesh, counted(*there), {last.state, {.unstable = last.count.unstable}})) return std::nullopt;
-  return BranchEnd{.reason = EndReason::unsupported,
+  return BranchEnd{.reason = EndReason::not_modelled,
                    .detail =
                        "the path walks back along itself behind two changes of contact between which nothing "
                        "moves; the way on was not found"};
@@ -413,7 +411,7 @@ void Search::search_at(double lambda) {
     else
       at.add_known_about(shape_between(DeckMesh(model_), record_, point, lambda));
   }
-  for (const CountedState& found : at.look(model_.deck().path.search_tries)) {
+  for (const CountedState& found : at.look(model_.deck().path.search_guesses)) {
     for (const int sense : {1, -1})
       pending_.push_back({{.state = found.state, .sense = sense}, static_cast<Index>(search.found.size())});
     search.found.push_back(told(model_, found));

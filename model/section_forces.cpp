@@ -16,10 +16,10 @@ struct ElementNode {
 
 bool flexible_in_shear(Theory theory) {
   switch (theory) {
-    case Theory::exact:
+    case Theory::reissner:
     case Theory::essenburg:
       return true;
-    case Theory::classic:
+    case Theory::euler_bernoulli:
     case Theory::elastica:
     case Theory::truss:
       return false;

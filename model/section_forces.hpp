@@ -13,7 +13,7 @@ namespace arcwall {
 struct TiedMember {
   const Structure& structure;
   std::size_t member = 0;
-  Theory theory = Theory::classic;
+  Theory theory = Theory::euler_bernoulli;
 
   int elements() const { return static_cast<int>(structure.members()[member].nodes.size()) - 1; }
 };

@@ -36,7 +36,7 @@ std::optional<double> end_of_stage(const deck::Deck& deck, const deck::Deck& var
 // The monitor that turns at a displacement limit; null at other events.
 std::shared_ptr<const Observable> turning_of(const Model& model, const Event& event) {
   for (const Watch& watch : model.watched())
-    if (event.kind == EventKind::displacement_limit && watch.label == event.label) return watch.quantity;
+    if (event.kind == EventKind::turning_point && watch.label == event.label) return watch.quantity;
   return nullptr;
 }
 

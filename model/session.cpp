@@ -7,7 +7,7 @@
 #include "model/checkpoint/checkpoint_file.hpp"
 #include "model/deck/reader.hpp"
 #include "model/deck/toml_source.hpp"
-#include "model/landings.hpp"
+#include "model/jumps.hpp"
 #include "model/record_parts.hpp"
 #include "model/recorder.hpp"
 #include "model/regular_file.hpp"
@@ -27,18 +27,18 @@ void keep_traced(Archive& archive, Record& record) {
   archive(record.branches, record.points, record.events, record.branch_points, record.searches, record.steps);
 }
 
-// Whether all that a landing refers to is in the record. One that was not found has no monitors.
-bool is_whole(const Record& record, const RecordLanding& landing) {
+// Whether all that a jump refers to is in the record. One that was not found has no monitors.
+bool is_whole(const Record& record, const RecordJump& jump) {
   const auto are_all = [&](const std::vector<double>& monitors) { return monitors.size() == record.columns.size(); };
-  const bool has_none = landing.monitors.empty() && !landing.reason.empty();
-  if (landing.point >= record.points.size() || !(are_all(landing.monitors) || has_none)) return false;
-  if (landing.on_branch && (*landing.on_branch < 0 || *landing.on_branch >= static_cast<Index>(record.branches.size())))
+  const bool has_none = jump.monitors.empty() && !jump.reason.empty();
+  if (jump.point >= record.points.size() || !(are_all(jump.monitors) || has_none)) return false;
+  if (jump.on_branch && (*jump.on_branch < 0 || *jump.on_branch >= static_cast<Index>(record.branches.size())))
     return false;
-  if (landing.back &&
-      (!are_all(landing.back->monitors) || (landing.back->landing && !is_whole(record, *landing.back->landing))))
+  if (jump.on_return &&
+      (!are_all(jump.on_return->monitors) || (jump.on_return->jump && !is_whole(record, *jump.on_return->jump))))
     return false;
-  return std::all_of(landing.several.begin(), landing.several.end(),
-                     [&](const RecordLanding& one) { return is_whole(record, one); });
+  return std::all_of(jump.destinations.begin(), jump.destinations.end(),
+                     [&](const RecordJump& one) { return is_whole(record, one); });
 }
 
 bool is_whole(const Record& record, const RecordSearch& search) {
@@ -65,7 +65,7 @@ bool is_whole(const Record& record, std::size_t ended_stages) {
     if (!has_branch(point.branch) || point.monitors.size() != record.columns.size()) return false;
   for (const RecordEvent& event : record.events)
     if (!has_branch(event.branch) || event.monitors.size() != record.columns.size() ||
-        (event.landing && !is_whole(record, *event.landing)))
+        (event.jump && !is_whole(record, *event.jump)))
       return false;
   for (const RecordBranchPoint& point : record.branch_points)
     if (!has_event(point.event)) return false;
@@ -110,7 +110,7 @@ const RecordPoint* Session::next() {
   if (!problem_.empty() || !begin()) return nullptr;
   const bool had_ended = tracing_->has_ended();
   if (tracing_->advance()) return &record_->points.back();
-  if (!had_ended && !stopped_) add_landings(*model_, *record_);
+  if (!had_ended && !stopped_) add_jumps(*model_, *record_);
   return nullptr;
 }
 

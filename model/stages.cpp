@@ -77,7 +77,7 @@ std::shared_ptr<const deck::Deck> deck_of_stage(const std::shared_ptr<const deck
       wall.motion->progress = {.constant = progress_of(progress, "wall." + wall.name).gone,
                                .proportional = drives(now, "wall." + wall.name) ? 1.0 : 0.0};
   if (now.stop) result.path.stop = *now.stop;
-  if (!now.land.empty()) result.path.land = now.land;
+  if (!now.output_at.empty()) result.path.output_at = now.output_at;
   result.path.step = now.step.value_or(deck.path.step);
   result.path.max_step = now.max_step.value_or(deck.path.max_step);
   result.path.branches = now.branches.value_or(deck.path.branches);

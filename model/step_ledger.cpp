@@ -30,16 +30,16 @@ std::string_view to_text(StepOutcome outcome) {
       return "wall_end";
     case StepOutcome::behind_end:
       return "behind_end";
-    case StepOutcome::strayed:
-      return "strayed";
-    case StepOutcome::turned:
-      return "turned";
-    case StepOutcome::not_landed:
-      return "not_landed";
-    case StepOutcome::penetrates:
-      return "penetrates";
-    case StepOutcome::refined:
-      return "refined";
+    case StepOutcome::left_path:
+      return "left_path";
+    case StepOutcome::tangent_angle:
+      return "tangent_angle";
+    case StepOutcome::event_not_located:
+      return "event_not_located";
+    case StepOutcome::penetration:
+      return "penetration";
+    case StepOutcome::contact_inserted:
+      return "contact_inserted";
     case StepOutcome::events_unclear:
       return "events_unclear";
     case StepOutcome::ended:

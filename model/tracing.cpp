@@ -51,7 +51,7 @@ class PathTracing final : public Tracing {
     if (const auto end = end_of_found_branch(model_, record_)) explorer_.end_branch(*end);
     if (const auto end = end_where_it_walks_back(model_, record_)) explorer_.end_branch(*end);
     if (auto why = model_.adrift(step->arc.to.state))
-      explorer_.stop({.reason = EndReason::adrift, .detail = std::move(*why)});
+      explorer_.stop({.reason = EndReason::rigid_body_motion, .detail = std::move(*why)});
     return true;
   }
 
@@ -106,8 +106,8 @@ class PathTracing final : public Tracing {
     if (!recorder_) return;
     BranchEnd end = branch().end.value();
     if (end.partner) *end.partner += first_;
-    if (first_ > 0 && end.reason == EndReason::branched)
-      end.detail = "goes on as branch " + std::to_string(*end.partner);
+    if (first_ > 0 && end.reason == EndReason::switched_branch)
+      end.detail = "continues as branch " + std::to_string(*end.partner);
     recorder_->end(end);
     recorder_.reset();
   }
@@ -275,7 +275,7 @@ class IncrementTracing final : public Tracing {
   BranchEnd all_taken() const {
     std::string detail = "lambda = " + round_trip(record_.points.back().lambda);
     if (increments_.unsettled() > 0)
-      detail += fmt::format("; contacts did not settle in {} increments", increments_.unsettled());
+      detail += fmt::format("; contacts did not converge in {} increments", increments_.unsettled());
     return {.reason = EndReason::stop, .detail = detail};
   }
 

@@ -34,7 +34,7 @@ fail() {
 arguments=("$root/examples/channel.toml" --set member.column.elements=8)
 options=(--quiet --checkpoint-pause 0)
 # The files that are put in place together, and the checkpoint apart.
-together=(path.csv contacts.csv events.json events.txt atlas.json report.html deck.toml result.json)
+together=(path.csv contacts.csv events.json events.txt branches.json report.html deck.toml result.json)
 sums() { (cd "$1" && sha256sum "${together[@]}"); }
 same_files() { diff -r --exclude=result.json whole "$1" >&2 || fail "$2"; }
 
@@ -64,7 +64,7 @@ try_with() {
     if [[ $(sums disk/run) == "$earlier" ]]; then
       kept=$((kept + 1))
     else  # all were in place before the shapes found no room
-      diff <(cd whole && sha256sum path.csv contacts.csv events.json events.txt atlas.json report.html deck.toml) \
+      diff <(cd whole && sha256sum path.csv contacts.csv events.json events.txt branches.json report.html deck.toml) \
         <(sums disk/run | grep -v result.json) || fail "files of two runs are mixed"
     fi
     rm -rf elsewhere

@@ -24,10 +24,10 @@ arguments() {
     channel) echo "$root/examples/channel.toml" ;;
     nodes) echo "$root/examples/channel.toml" --set 'contact.points="nodes"' --set 'path.branches="all"' ;;
     lee) echo "$root/examples/lee.toml" --set path.max_step=0.01 ;;
-    increments) echo "$root/examples/foundation.toml" --set 'path.method="incremental"' --set path.step=0.005 --set 'path.land={lambda=[0.5]}' ;;
+    increments) echo "$root/examples/foundation.toml" --set 'path.method="incremental"' --set path.step=0.005 --set 'path.output_at={lambda=[0.5]}' ;;
     stages) echo "$root/examples/harvester.toml" ;;
     curve) echo "$root/examples/channel.toml" --set member.column.elements=20 ;;
-    search) echo "$root/examples/channel.toml" --set member.column.elements=20 --set path.search=true --set path.search_at=[6.5] --set path.search_tries=2 ;;
+    search) echo "$root/examples/channel.toml" --set member.column.elements=20 --set path.search=true --set path.search_at=[6.5] --set path.search_guesses=2 ;;
   esac
 }
 

@@ -8,14 +8,13 @@
 namespace arcwall {
 
 std::vector<OptionDescription> call_options() {
-  return {{"max-points", "N", "end after N points (status 6)"},
-          {"max-time", "SECONDS", "end after that time (status 6)"},
+  return {{"max-points", "N", "stop after N points (exit status 6); resume continues"},
+          {"max-time", "SECONDS", "stop after this time (exit status 6); resume continues"},
           {"checkpoint-pause", "SECONDS", "time between two checkpoints, 0 for one at each point (default: 5)"},
-          {"scratch", "",
-           "for files that a program reads at once: no checkpoint once the run has ended, nothing flushed to the disk"},
-          {"json", "", "points, events and end on standard output, one JSON object a line"},
-          {"no-pictures", "", "write neither report.html nor the shapes (trace-path report writes the one later)"},
-          {"quiet", "", "no progress and no table of events"}};
+          {"scratch", "", "for results that a program reads at once: no final checkpoint, nothing flushed to the disk"},
+          {"json", "", "print points, events and end as one JSON object per line"},
+          {"no-pictures", "", "write neither report.html nor shapes (trace-path report writes the page later)"},
+          {"quiet", "", "print neither progress nor the table of events"}};
 }
 
 CallOptions call_options(const Options& options) {

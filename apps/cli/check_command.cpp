@@ -21,7 +21,7 @@ Command check_command() {
   return {.description = {.name = "check",
                           .example = "trace-path check channel.toml",
                           .usage = "DECK [options]",
-                          .summary = "reports every error of a deck, else says what it describes",
+                          .summary = "validate a deck and summarise the model",
                           .options = {set_option()},
                           .least_words = 1,
                           .most_words = 1},

@@ -72,7 +72,7 @@ ExitStatus curve(const Options& options) {
     if (!replaced.empty()) std::cerr << "note: " << replaced << "\n";
   };
   const CallOptions call = call_options(options);
-  if (deck.curve->over.empty()) {
+  if (deck.curve->parameter.empty()) {
     const OutputFolder folder(out, identity, foreign);
     say_replaced();
     return worst(deck, of, folder, call);
@@ -89,7 +89,7 @@ ExitStatus curve(const Options& options) {
 Command curve_command() {
   std::vector<OptionDescription> options = {
       {"out", "DIR", "folder to write into (default: the deck's name without its ending, and -curve)"},
-      {"force", "", "write into DIR though something else filled it"},
+      {"force", "", "overwrite a folder that holds other files"},
       {"no-units", "", "no units in the titles of curve.csv"},
       set_option()};
   for (OptionDescription& option : call_options())
@@ -97,7 +97,7 @@ Command curve_command() {
   return {.description = {.name = "curve",
                           .example = "trace-path curve channel.toml --set curve.range=[0.15,0.25]",
                           .usage = "DECK [options]",
-                          .summary = "follows an event while a number of the deck varies",
+                          .summary = "follow an event while a parameter of the deck varies",
                           .options = std::move(options),
                           .least_words = 1,
                           .most_words = 1},

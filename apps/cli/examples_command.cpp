@@ -66,7 +66,7 @@ Command examples_command() {
   return {.description = {.name = "examples",
                           .example = "trace-path examples channel --out channel.toml",
                           .usage = "[NAME] [options]",
-                          .summary = "lists the decks and sweeps that come with the program; writes one",
+                          .summary = "list the example decks and sweeps, or write one of them",
                           .options = {{"out", "FILE", "write the deck into a new file (default: standard output)"}},
                           .least_words = 0,
                           .most_words = 1},

@@ -21,7 +21,7 @@ namespace {
 std::vector<OptionDescription> all_options(const CommandDescription& command) {
   std::vector<OptionDescription> options = command.options;
   options.push_back({.name = "help", .help = "show this"});
-  options.push_back({.name = "version", .help = "show the version of the program"});
+  options.push_back({.name = "version", .help = "show the version"});
   return options;
 }
 

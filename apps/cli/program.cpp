@@ -29,15 +29,15 @@ std::string last_word(const std::string& name) { return name.substr(name.rfind('
 std::string top_help() {
   std::string text =
       "  trace-path run deck.toml --out results\n\n"
-      "Follows equilibrium paths of beams, frames and trusses among rigid obstacles.\n"
+      "Traces equilibrium paths of beams, frames and trusses in contact with rigid obstacles.\n"
       "usage: trace-path COMMAND …, or trace-path DECK, which is trace-path run DECK\n";
   std::vector<std::pair<std::string, std::string>> rows;
   for (const Command& command : commands()) rows.emplace_back(command.description.name, command.description.summary);
   rows.emplace_back("sweep", sweep_summary);
   text += listed(rows) +
           "\n"
-          "trace-path COMMAND --help says more; trace-path --version shows the version.\n"
-          "trace-path examples lists decks to begin with.\n";
+          "trace-path COMMAND --help shows the options; trace-path --version shows the version.\n"
+          "trace-path examples lists decks to start from.\n";
   return text;
 }
 
@@ -48,7 +48,7 @@ std::string sweep_help() {
   return fmt::format(
       "  trace-path sweep plan sweep.toml --out study\n  trace-path sweep run study --jobs 4\n"
       "  trace-path sweep collect study\n\n{}\nusage: trace-path sweep COMMAND …\n{}\n"
-      "trace-path sweep COMMAND --help says more.\n",
+      "trace-path sweep COMMAND --help shows the options.\n",
       sweep_summary, listed(rows));
 }
 

@@ -67,20 +67,19 @@ ExitStatus write_report(const Options& options) {
 }  // namespace
 
 Command report_command() {
-  return {
-      .description = {.name = "report",
-                      .example = "trace-path report coarse fine --measured test.csv --out both.html",
-                      .usage = "DIR [DIR …] [options]",
-                      .summary = "writes report.html of a run again, or a page of one with others drawn into it",
-                      .options = {{.name = "measured",
-                                   .value = "FILE.csv",
-                                   .help = "draw points of a table: its first line names lambda and monitors; may be "
-                                           "repeated",
-                                   .repeatable = true},
-                                  {"out", "FILE", "page to write (default: report.html in the folder of the run)"}},
-                      .least_words = 1,
-                      .most_words = most_runs},
-      .run = write_report};
+  return {.description = {.name = "report",
+                          .example = "trace-path report coarse fine --measured test.csv --out both.html",
+                          .usage = "DIR [DIR …] [options]",
+                          .summary = "write report.html again, or overlay several runs in one page",
+                          .options = {{.name = "measured",
+                                       .value = "FILE.csv",
+                                       .help = "draw measured points; the first line names lambda and monitors; may be "
+                                               "repeated",
+                                       .repeatable = true},
+                                      {"out", "FILE", "page to write (default: report.html in the folder of the run)"}},
+                          .least_words = 1,
+                          .most_words = most_runs},
+          .run = write_report};
 }
 
 }  // namespace arcwall

@@ -33,7 +33,7 @@ Command resume_command() {
   return {.description = {.name = "resume",
                           .example = "trace-path resume results --max-time 3600",
                           .usage = "DIR [options]",
-                          .summary = "goes on with a run or a curve that was interrupted or met a limit",
+                          .summary = "continue a run or a curve that was interrupted or met a limit",
                           .options = call_options(),
                           .least_words = 1,
                           .most_words = 1},

@@ -42,7 +42,7 @@ ExitStatus dry_run(const RunRequest& request, const Session& run) {
   if (request.call.report != CallOptions::Report::table) return ExitStatus::success;
   std::cout << summary(run.model()) << "\nwould write into " << request.folder.string() << ": path.csv, "
             << (run.record().has_walls ? "contacts.csv, " : "")
-            << "events.json, events.txt, atlas.json, deck.toml, checkpoint, result.json"
+            << "events.json, events.txt, branches.json, deck.toml, checkpoint, result.json"
             << (request.call.pictures == CallOptions::Pictures::written ? ", report.html, shapes.pvd, shapes/" : "")
             << "\n";
   return ExitStatus::success;
@@ -56,7 +56,7 @@ void say_what_is_replaced(const RunRequest& request) {
     if (there.has_ended() || of.deck_text != request.run.deck_text || of.assignments != request.run.assignments) return;
     const std::string folder = request.folder.string();
     std::cerr << "note: " << folder << " holds a run of this deck that had not ended (" << there.record().points.size()
-              << " points); it is traced anew. `trace-path resume " << folder << "` would have gone on with it\n";
+              << " points); it is traced anew. `trace-path resume " << folder << "` would have continued it\n";
   } catch (const OutputError&) {
   } catch (const InputError&) {
   }
@@ -94,16 +94,16 @@ OptionDescription set_option() {
 Command run_command() {
   std::vector<OptionDescription> options = {
       {"out", "DIR", "folder to write into (default: the deck's name without its ending)"},
-      {"no-units", "", "leave the units out of the header of path.csv"},
-      {"force", "", "write into DIR though something else filled it"},
+      {"no-units", "", "omit units in the header of path.csv"},
+      {"force", "", "overwrite a folder that holds other files"},
       set_option()};
   for (OptionDescription& option : call_options()) options.push_back(std::move(option));
-  options.push_back({"verbose", "", "write steps.jsonl: every attempted step, and why it was accepted or cut back"});
-  options.push_back({"dry-run", "", "read, build and check, say what would be written, write nothing"});
+  options.push_back({"verbose", "", "write steps.jsonl: each attempted step and its outcome"});
+  options.push_back({"dry-run", "", "validate only, write nothing"});
   return {.description = {.name = "run",
                           .example = "trace-path run channel.toml --out results --set member.column.elements=160",
                           .usage = "DECK [options]",
-                          .summary = "traces the paths of a deck and writes them into a folder",
+                          .summary = "trace the equilibrium paths of a deck and write the results",
                           .options = std::move(options),
                           .least_words = 1,
                           .most_words = 1},

@@ -54,7 +54,7 @@ std::string text_of(const FirstGap& first, const deck::Deck& deck) {
   const std::string text = fmt::format("{} candidates", first.candidates);
   if (first.at == nullptr) return text + ", none faces it";
   const ContactLabel& label = first.at->label();
-  return text + ", first gap " + with_unit(fmt::format("{:.6g}", first.gap), deck.units.length) +
+  return text + ", smallest initial gap " + with_unit(fmt::format("{:.6g}", first.gap), deck.units.length) +
          fmt::format(" at {}:{:.4g}", label.member, label.fraction);
 }
 
@@ -118,8 +118,8 @@ void add_contact(const deck::Deck& deck, Lines& lines) {
   if (deck.walls.empty()) return;
   const deck::PointsOfContact contact = deck::points_of_contact(deck);
   switch (contact.points) {
-    case deck::ContactPoints::sliding:
-      lines.add("contact", "anywhere along the members (sliding): " + contact.why);
+    case deck::ContactPoints::moving:
+      lines.add("contact", "anywhere along the members (moving): " + contact.why);
       break;
     case deck::ContactPoints::nodes:
       lines.add("contact", "at the nodes of the mesh: " + contact.why);

@@ -24,7 +24,7 @@ namespace arcwall {
 
 namespace fs = std::filesystem;
 
-const char* const sweep_summary = "parameter studies: many runs of one deck, with other values in each";
+const char* const sweep_summary = "run parameter studies: one deck with many sets of values";
 
 namespace {
 
@@ -51,10 +51,10 @@ ExitStatus plan(const Options& options) {
 constexpr std::array owned_options{"out", "force", "json", "quiet", "dry-run", "max-time", "no-pictures"};
 
 // Whether the deck of a planned sweep says where falls are looked for.
-bool says_landing(const fs::path& folder) {
+bool says_jumps(const fs::path& folder) {
   const sweep::Case first = sweep::CaseReader(folder).next().value();
   try {
-    return deck::read_deck((folder / first.deck).string(), sweep::assignments(first)).path.landing_given.in_deck;
+    return deck::read_deck((folder / first.deck).string(), sweep::assignments(first)).path.jumps_given.in_deck;
   } catch (const InputError&) {
     return true;  // its cases say what is wrong
   }
@@ -115,7 +115,7 @@ int run_as_program(const std::vector<std::string>& words) {
 
 std::string text(const sweep::RunCounts& counts, std::size_t cases) {
   std::string line =
-      fmt::format("{} of {} cases have results, {} of them new", counts.ran + counts.complete, cases, counts.ran);
+      fmt::format("{} of {} cases completed, {} of them new", counts.ran + counts.complete, cases, counts.ran);
   if (counts.failed > 0) line += fmt::format(", {} of the new ones failed", counts.failed);
   if (counts.busy > 0) line += fmt::format("; another process is running {}", counts.busy);
   return line;
@@ -130,7 +130,7 @@ ExitStatus run_sweep(const Options& options) {
                                   .body = run_as_program,
                                   .jobs = options.count("jobs").value_or(1),
                                   .traced = traced_of(folder),
-                                  .landing = says_landing(folder),
+                                  .jumps = says_jumps(folder),
                                   .options = options.passed_on(),
                                   .most_seconds = options.seconds("max-time"),
                                   .keep = records ? sweep::Keep::records : sweep::Keep::folders,
@@ -147,7 +147,7 @@ ExitStatus run_sweep(const Options& options) {
   }
   if (!options.has("quiet")) std::cout << text(counts, cases) << "\n";
   if (counts.interrupted) {
-    std::cerr << "note: interrupted; the same command goes on\n";
+    std::cerr << "note: interrupted; the same command continues\n";
     return ExitStatus::interrupted;
   }
   return counts.failed > 0 && !options.has("tolerant") ? ExitStatus::ended_early : ExitStatus::success;
@@ -169,9 +169,9 @@ ExitStatus show_status(const Options& options) {
   std::size_t not_run = collection.size() - of_all.ran, begun = 0;
   for (const int number : sweep::begun_cases(collection.folder()))
     if (static_cast<std::size_t>(number) < collection.size() && !collection.results().has(number)) ++begun;
-  std::cout << fmt::format("{} of {} cases have results, {} of them as their deck says\n", of_all.ran,
-                           collection.size(), collection.size() - of_all.failed);
-  std::cout << fmt::format("{} more are being run or were begun, {} were not\n", begun, not_run - begun);
+  std::cout << fmt::format("{} of {} cases completed, {} of them as the deck asks\n", of_all.ran, collection.size(),
+                           collection.size() - of_all.failed);
+  std::cout << fmt::format("{} more are running or were interrupted, {} have not begun\n", begun, not_run - begun);
   print_failures(of_all);
   return ExitStatus::success;
 }
@@ -241,7 +241,7 @@ ExitStatus collect(const Options& options) {
   });
   tables.finish();
   write_whole(collection.folder() / "report.html", sweep::report_html(collection, of_all, drawn));
-  std::cout << fmt::format("{} cases, {} as their deck says; written: cases.csv, sweep.csv, {}report.html in {}\n",
+  std::cout << fmt::format("{} cases, {} ended as the deck asks; written: cases.csv, sweep.csv, {}report.html in {}\n",
                            collection.size(), collection.size() - of_all.failed,
                            collection.sweep().traced == Traced::curve ? "curves.csv, " : "",
                            collection.folder().string());
@@ -256,7 +256,7 @@ std::vector<Command> sweep_commands() {
       {.description = {.name = "sweep plan",
                        .example = "trace-path sweep plan sweep.toml --out study",
                        .usage = "SWEEP [options]",
-                       .summary = "reads a sweep, checks every case, and writes a folder that stands alone",
+                       .summary = "validate all cases and create a study folder",
                        .options = {{"out", "DIR",
                                     "folder to write into (default: the sweep's name without its ending)"}},
                        .least_words = 1,
@@ -265,9 +265,9 @@ std::vector<Command> sweep_commands() {
       {.description = {.name = "sweep run",
                        .example = "trace-path sweep run study --jobs 4 -- --max-points 2000",
                        .usage = "DIR [options] [-- options of run or curve]",
-                       .summary = "runs the cases that have no results yet; may be stopped and goes on",
-                       .options = {{"case", "K", "this case alone; cases count from 0"},
-                                   {"part", "I/N", "of N equal shares of the cases the one with number I, from 0"},
+                       .summary = "run the cases that have no results yet; the same command continues",
+                       .options = {{"case", "K", "run only this case; the first is 0"},
+                                   {"part", "I/N", "run share I of N equal shares of the cases; the first is 0"},
                                    {"jobs", "N", "processes at a time (default: 1)"},
                                    {"max-time", "SECONDS", "end a case after that time; it counts as failed"},
                                    {"failed", "", "run the cases that failed again"},
@@ -282,16 +282,16 @@ std::vector<Command> sweep_commands() {
       {.description = {.name = "sweep status",
                        .example = "trace-path sweep status study",
                        .usage = "DIR",
-                       .summary = "says how many cases have results, were begun, or failed, and why",
+                       .summary = "show progress and failures, with reasons",
                        .least_words = 1,
                        .most_words = 1},
        .run = show_status},
       {.description = {.name = "sweep emit",
                        .example = "trace-path sweep emit study --engine slurm --time 0:30:00 --memory 2G >study.sh",
                        .usage = "DIR --engine parallel|slurm [options] [-- options of run]",
-                       .summary = "prints a script that runs the cases by GNU parallel or Slurm",
-                       .options = {{"engine", "parallel|slurm", "what runs the cases"},
-                                   {"jobs", "N", "tasks at a time (default: what the engine takes)"},
+                       .summary = "print a job script for GNU parallel or Slurm",
+                       .options = {{"engine", "parallel|slurm", "the program that runs the cases"},
+                                   {"jobs", "N", "tasks at a time (default: that of the engine)"},
                                    {"tasks", "N", "share the cases among N tasks (default: one each, at most 1000)"},
                                    {"time", "LIMIT", "of a task of Slurm, as in 0:30:00"},
                                    {"memory", "SIZE", "of a task of Slurm, as in 2G"},
@@ -305,7 +305,7 @@ std::vector<Command> sweep_commands() {
       {.description = {.name = "sweep collect",
                        .example = "trace-path sweep collect study",
                        .usage = "DIR [options]",
-                       .summary = "writes cases.csv, sweep.csv and report.html with maps of the loads",
+                       .summary = "collect results into tables and maps of the event loads",
                        .options = {{.name = "over",
                                     .value = "KEY",
                                     .help = "varied key that the maps go over, one or two (default: the first two)",

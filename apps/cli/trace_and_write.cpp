@@ -9,7 +9,7 @@
 #include "apps/cli/interrupt.hpp"
 #include "apps/cli/json_lines.hpp"
 #include "apps/converge/convergence_files.hpp"
-#include "apps/output/atlas_page.hpp"
+#include "apps/output/branch_map_page.hpp"
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
@@ -90,7 +90,7 @@ void write_files(const OutputFolder& folder, const Session& run, const CallOptio
   if (record.has_walls) files.write("contacts.csv", contacts_csv(record, description.units));
   files.write("events.json", to_text(events_json(record), JsonLayout::lines));
   files.write("events.txt", report_of_events(folder, run));
-  files.write("atlas.json", to_text(atlas_json(record, atlas_of(run.model(), record)), JsonLayout::lines));
+  files.write("branches.json", to_text(branch_map_json(record, branch_map_of(run.model(), record)), JsonLayout::lines));
   if (pictures) files.write("report.html", ReportPage(record, report_content(run.model(), record, drawn)).pieces());
   if (description.ledger == StepLedger::kept) files.write("steps.jsonl", record.steps);
   files.write("deck.toml", deck::to_toml(run.model().whole_deck()));

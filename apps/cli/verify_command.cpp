@@ -93,8 +93,7 @@ Command verify_command() {
           {.name = "verify",
            .example = "trace-path verify results",
            .usage = "DIR [options]",
-           .summary =
-               "checks the states and files of a run or a curve again, by other formulas than they were traced with",
+           .summary = "check stored results of a run or a curve with independent formulas",
            .options =
                {{"again", "",
                  "also trace the deck with a quarter of the step and compare the events; of a curve, trace the deck at "

@@ -135,7 +135,7 @@ void compare(const Convergence& study, ConvergedEvent& of) {
   const bool gaps = std::adjacent_find(of.lambda.begin(), of.lambda.end(), [](const auto& a, const auto& b) {
                       return a.has_value() && !b.has_value();
                     }) != of.lambda.end();
-  const double unsure = std::max(of.localised, roundoff * std::abs(values.back()));
+  const double unsure = std::max(of.lambda_uncertainty, roundoff * std::abs(values.back()));
   if (gaps) {
     of.limit = {.value = values.back(), .irregular = "not on every finer mesh"};
   } else {
@@ -154,7 +154,7 @@ ConvergedEvent gathered(const Convergence& study, std::size_t of, std::size_t ev
     if (!index) continue;
     const RecordEvent& same = study.meshes[mesh].record.events[*index];
     one.lambda[mesh] = same.lambda;
-    one.localised = std::max(one.localised, same.localised);
+    one.lambda_uncertainty = std::max(one.lambda_uncertainty, same.lambda_uncertainty);
   }
   return one;
 }

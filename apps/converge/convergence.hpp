@@ -24,7 +24,7 @@ struct ConvergedEvent {
   RecordEvent event{};
   Index number = 1;                             ///< among those of its kind on its mesh, in their order
   std::vector<std::optional<double>> lambda{};  ///< by mesh; empty where no event matches
-  double localised = 0.0;                       ///< the greatest of the meshes
+  double lambda_uncertainty = 0.0;              ///< the greatest of the meshes
   std::optional<double> penalty{};              ///< how far springs as walls give way to it; only with those
   Extrapolation limit{};
   std::optional<double> error_of_deck{};  ///< of λ on the deck's own mesh; empty where it has no such event

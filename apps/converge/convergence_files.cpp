@@ -51,7 +51,7 @@ OrderedJson event_json(const ConvergedEvent& one) {
   json["irregular"] = one.limit.irregular.empty() ? OrderedJson(nullptr) : OrderedJson(one.limit.irregular);
   json["extrapolated"] = number(one.limit.value);
   json["error"] = number(one.limit.error);
-  json["localised"] = number(one.localised);
+  json["lambda_uncertainty"] = number(one.lambda_uncertainty);
   if (one.penalty) json["penalty"] = number(one.penalty);
   json["error_of_deck"] = number(one.error_of_deck);
   return json;
@@ -146,7 +146,8 @@ std::string error_bars_text(const std::filesystem::path& folder, const Record& r
       const Json lambdas = one.value("lambda", Json::array()), error = one.value("error_of_deck", Json());
       const bool known = lambdas.is_array() && mesh < lambdas.size() && lambdas[mesh].is_number() && error.is_number();
       if (!known || one.value("kind", Json()) != std::string(to_text(event.kind))) continue;
-      if (std::abs(lambdas[mesh].get<double>() - event.lambda) > 1e-9 * std::abs(event.lambda) + event.localised)
+      if (std::abs(lambdas[mesh].get<double>() - event.lambda) >
+          1e-9 * std::abs(event.lambda) + event.lambda_uncertainty)
         continue;
       const Json irregular = one.value("irregular", Json());
       rows.push_back({std::to_string(event.id), shown_number(event.lambda, 10), shown_number(error.get<double>(), 2),

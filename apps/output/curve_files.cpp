@@ -80,7 +80,7 @@ OrderedJson curve_json(const EventCurve& curve, const RunDescription& run) {
   json["deck"] = deck_json(identity_of(run), curve.title, run.assignments);
   json["version"] = program_version();
   json["event"] = {{"kind", to_text(curve.event)}, {"number", curve.number}};
-  json["over"] = curve.key;
+  json["parameter"] = curve.key;
   json["unit"] = curve.key_unit;
   json["value"] = curve.own_value;
   json["points"] = curve.points.size();

@@ -33,15 +33,19 @@ EventMark mark_of(EventKind kind) {
       return {.symbol = "triangle-up", .outline = polygon(3, 1.0, {1.15}), .filled = !filled};
     case EventKind::contact_spreads:
       return {.symbol = "diamond-wide", .outline = polygon(4, 0.0, {1.3, 0.8}), .filled = filled};
-    case EventKind::contact_gathers:
+    case EventKind::contact_splits:
+      return {.symbol = "cross", .outline = polygon(8, 0.5, {1.3, 0.55}), .filled = filled};
+    case EventKind::contact_shrinks:
       return {.symbol = "diamond-wide", .outline = polygon(4, 0.0, {1.3, 0.8}), .filled = !filled};
-    case EventKind::contact_passes:
+    case EventKind::contacts_merge:
+      return {.symbol = "cross", .outline = polygon(8, 0.5, {1.3, 0.55}), .filled = !filled};
+    case EventKind::contact_transfers:
       return {.symbol = "diamond-tall", .outline = polygon(4, 0.0, {0.8, 1.3}), .filled = !filled};
     case EventKind::limit_point:
       return {.symbol = "circle", .outline = polygon(24, 0.0, {1.0}), .filled = filled};
     case EventKind::contact_limit_point:
       return {.symbol = "hexagon", .outline = polygon(6, 1.0, {1.1}), .size = 1.7, .filled = !filled};
-    case EventKind::displacement_limit:
+    case EventKind::turning_point:
       return {.symbol = "square", .outline = polygon(4, 0.5, {1.1}), .filled = filled};
     case EventKind::branch_point:
       return {.symbol = "star", .outline = polygon(10, 1.0, {1.4, 0.55}), .filled = filled};
@@ -59,25 +63,29 @@ std::string_view meaning(EventKind kind) {
     case EventKind::end:
       return "the branch ends";
     case EventKind::contact_closes:
-      return "the structure touches a wall";
+      return "first contact: a member comes into contact with a wall";
     case EventKind::contact_opens:
-      return "it lets go of a wall";
+      return "release: a contact force becomes zero";
     case EventKind::contact_spreads:
-      return "a touch at a point becomes a stretch";
-    case EventKind::contact_gathers:
-      return "a stretch becomes a touch at a point";
-    case EventKind::contact_passes:
-      return "a touch moves from a free end to the inside, or back";
+      return "a contact point becomes a contact zone";
+    case EventKind::contact_splits:
+      return "a contact becomes two, with a free span between";
+    case EventKind::contact_shrinks:
+      return "a contact zone becomes a contact point";
+    case EventKind::contacts_merge:
+      return "two contacts become one";
+    case EventKind::contact_transfers:
+      return "contact moves between the end and the inside of a member, or over a joint";
     case EventKind::limit_point:
-      return "the load turns: a dead load snaps here";
+      return "λ turns: a maximum or a minimum";
     case EventKind::contact_limit_point:
-      return "the load turns at a change of contact";
-    case EventKind::displacement_limit:
-      return "a watched displacement turns";
+      return "λ turns at a change of contact";
+    case EventKind::turning_point:
+      return "a watched monitor turns";
     case EventKind::branch_point:
-      return "other equilibria branch off";
+      return "several branches meet";
     case EventKind::user:
-      return "found by a detector of the program";
+      return "located by a detector that a program added";
   }
   assert(false);
   return {};

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "apps/output/landing_rows.hpp"
+#include "apps/output/jump_rows.hpp"
 #include "model/event_names.hpp"
 #include "model/version.hpp"
 
@@ -51,8 +51,8 @@ OrderedJson branch(const Record& record, const RecordBranch& branch) {
   json["id"] = branch.id;
   if (!record.stages.empty()) json["stage"] = record.stage_of(branch.id);
   json["parent"] = count(branch.parent);
-  json["origin"] = branch.found ? OrderedJson("found") : count(branch.origin);
-  json["mirrored"] = branch.mirrored;
+  json["origin"] = branch.found ? OrderedJson("search") : count(branch.origin);
+  json["mirror_image"] = branch.mirror_image;
   json["points"] = branch.points;
   json["lambda"] = OrderedJson::array({number(branch.least_lambda), number(branch.greatest_lambda)});
   json["end"] = branch.end ? end_json(*branch.end) : OrderedJson(nullptr);
@@ -84,25 +84,26 @@ OrderedJson event_json(const Record& record, const RecordEvent& event) {
   json["monitors"] = monitors(record, event.monitors);
   json["unstable_before"] = count(event.unstable_before);
   json["unstable_after"] = count(event.unstable_after);
-  if (record.moves_supports) json["unstable_dead"] = count(event.unstable_dead);
+  if (record.moves_supports) json["unstable_load_control"] = count(event.unstable_load_control);
   json["residual"] = number(event.residual);
-  json["localised"] = number(event.localised);
+  json["lambda_uncertainty"] = number(event.lambda_uncertainty);
   if (changes_contact(event.kind)) {
     json["contact"] = OrderedJson::array();
     for (const RecordContact& one : event.contacts) json["contact"].push_back(contact(one));
   }
   if (event.continuum) json["family"] = family(*event.continuum);
+  if (event.extremum) json["extremum"] = to_text(*event.extremum);
   if (event.monitor) json["monitor"] = *event.monitor;
-  if (event.branch_type || event.kind == EventKind::limit_point) json["suspected"] = event.suspected;
+  if (event.branch_type || event.kind == EventKind::limit_point) json["unconfirmed"] = event.unconfirmed;
   if (event.branch_type) {
     json["type"] = to_text(*event.branch_type);
     json["multiplicity"] = event.multiplicity;
-    json["discretisation"] = event.discretisation;
+    json["mesh_artefact"] = event.mesh_artefact;
     json["branches"] = event.branches;
   }
   if (!event.mode.empty()) json["mode"] = monitors(record, event.mode);
   add_sensitivity(event.sensitivity, json);
-  if (event.landing) json["landing"] = landing_json(record, *event.landing);
+  if (event.jump) json["jump"] = jump_json(record, *event.jump);
   if (event.branch_end) json.update(end_json(*event.branch_end));
   return json;
 }
@@ -117,7 +118,7 @@ OrderedJson point_json(const Record& record, const RecordPoint& point) {
   json["monitors"] = monitors(record, point.monitors);
   json["unstable"] = count(point.count.unstable);
   json["stability"] = to_text(point.count.stability);
-  if (record.moves_supports) json["unstable_dead"] = count(point.unstable_dead);
+  if (record.moves_supports) json["unstable_load_control"] = count(point.unstable_load_control);
   json["contacts"] = point.contacts;
   json["energy"] = number(point.energy);
   json["iterations"] = point.iterations;

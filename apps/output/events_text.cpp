@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "apps/output/landing_rows.hpp"
+#include "apps/output/jump_rows.hpp"
 #include "apps/output/roundoff.hpp"
 #include "apps/output/search_rows.hpp"
 #include "apps/output/sensitivity_rows.hpp"
@@ -80,7 +80,7 @@ std::string tree(const Record& record, std::optional<Index> parent, int depth) {
                           shown_lambda(record.events[static_cast<std::size_t>(*branch.origin)], 10), *branch.origin);
     if (branch.found) text += found_at(record, branch) + ": ";
     text += ending(branch);
-    if (branch.mirrored)
+    if (branch.mirror_image)
       text +=
           fmt::format("{}its mirror image is not traced\n", std::string(static_cast<std::size_t>(2 * depth + 2), ' '));
     text += tree(record, branch.id, depth + 1);
@@ -103,8 +103,9 @@ std::string event_detail(const RecordEvent& event) {
   if (event.branch_type)
     return std::string(to_text(*event.branch_type)) +
            (event.multiplicity > 1 ? fmt::format(", {} modes", event.multiplicity) : "") +
-           (event.suspected ? ", suspected" : "") + (event.discretisation ? ", of the node contact" : "");
-  if (event.suspected) return "suspected";
+           (event.unconfirmed ? ", unconfirmed" : "") + (event.mesh_artefact ? ", of the node contact" : "");
+  if (event.unconfirmed) return "unconfirmed";
+  if (event.extremum) return std::string(to_text(*event.extremum));
   if (event.monitor) return *event.monitor;
   if (event.continuum)
     return contacts(event.contacts) + fmt::format("; of {} lengths only the sum is determined", event.continuum->parts);
@@ -112,11 +113,13 @@ std::string event_detail(const RecordEvent& event) {
 }
 
 std::string shown_lambda(const RecordEvent& event, int digits) {
-  return shown_uncertain(event.lambda, event.localised, digits);
+  return shown_uncertain(event.lambda, event.lambda_uncertainty, digits);
 }
 
 std::string uncertainty_note(const Record& record) {
-  const auto is_marked = [](const RecordEvent& event) { return is_marked_uncertain(event.lambda, event.localised); };
+  const auto is_marked = [](const RecordEvent& event) {
+    return is_marked_uncertain(event.lambda, event.lambda_uncertainty);
+  };
   if (std::none_of(record.events.begin(), record.events.end(), is_marked)) return "";
   return "λ = a ± b: the event lies between a − b and a + b and could not be located more closely; smaller steps may "
          "do so.";
@@ -156,9 +159,9 @@ std::string events_text(const Record& record, const std::vector<std::string>& la
         "\nWhat λ of the events depends on: its derivative by a number n of the deck, and by how many per cent it "
         "changes where n grows by one\n\n" +
         text_table(sensitivity_columns(), rows);
-  if (const auto rows = landing_rows(record); !rows.empty())
-    text += "\nWhere the structure falls to, λ held: energy released, and λ back at which it falls again\n\n" +
-            text_table(landing_columns(record), rows);
+  if (const auto rows = jump_rows(record); !rows.empty())
+    text += "\nJumps at constant λ: destination, energy released, and λ of the return jump on unloading\n\n" +
+            text_table(jump_columns(record), rows);
   return printable(text + search_text(record), LineBreaks::kept);
 }
 

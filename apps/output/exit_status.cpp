@@ -9,8 +9,8 @@ ExitStatus exit_status(EndReason reason) {
   switch (reason) {
     case EndReason::stop:
     case EndReason::closed_loop:
-    case EndReason::joined:
-    case EndReason::branched:
+    case EndReason::reached_branch:
+    case EndReason::switched_branch:
       return ExitStatus::success;
     case EndReason::max_points:
     case EndReason::max_time:
@@ -20,12 +20,12 @@ ExitStatus exit_status(EndReason reason) {
     case EndReason::min_step:
     case EndReason::singular:
     case EndReason::not_finite:
-    case EndReason::no_ray:
-    case EndReason::turning_control:
+    case EndReason::no_continuation:
+    case EndReason::control_turns:
     case EndReason::wall_end:
-    case EndReason::continuum:
-    case EndReason::unsupported:
-    case EndReason::adrift:
+    case EndReason::equilibrium_family:
+    case EndReason::not_modelled:
+    case EndReason::rigid_body_motion:
       return ExitStatus::ended_early;
   }
   assert(false);

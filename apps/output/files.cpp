@@ -65,7 +65,7 @@ bool is_same(const DeckIdentity& a, const DeckIdentity& b) {
 const std::string& shown_path(const DeckIdentity& deck) { return deck.path.empty() ? deck.file : deck.path; }
 
 // What is written into the folder of a run or of a study of meshes, besides shapes.
-constexpr std::array output_names{"atlas.json",       "path.csv",        "contacts.csv", "events.json",
+constexpr std::array output_names{"branches.json",    "path.csv",        "contacts.csv", "events.json",
                                   "events.txt",       "deck.toml",       "result.json",  "report.html",
                                   "shapes.pvd",       "steps.jsonl",     "checkpoint",   "probe",
                                   "convergence.json", "convergence.txt", "curve.json",   "curve.csv"};

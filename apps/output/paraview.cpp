@@ -139,7 +139,7 @@ double gap_at(const ShapePoint& point, const MemberMesh& mesh, const std::vector
   double least = most;
   for (const auto& [wall, obstacle, lambda] : surfaces) {
     if (!concerns(wall, mesh.name)) continue;
-    const double half = wall.acts_on == deck::ActsOn::face ? 0.5 * mesh.height.value_or(0.0) : 0.0;
+    const double half = wall.contact_surface == deck::ContactSurface::face ? 0.5 * mesh.height.value_or(0.0) : 0.0;
     if (wall.outline) {
       least = std::min(least, obstacle->gap_slope(point.position, lambda).value - half);
       continue;

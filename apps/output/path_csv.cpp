@@ -11,7 +11,7 @@ std::string header(const Record& record, UnitLabels labels) {
   std::string text = "branch,step,arc,lambda";
   for (const RecordColumn& column : record.columns) text += "," + csv_title(column.name, column.unit, labels);
   text += ",unstable,stability,contacts," + csv_title("energy", record.energy_unit, labels) + ",iterations,event";
-  if (record.moves_supports) text += ",unstable_dead";
+  if (record.moves_supports) text += ",unstable_load_control";
   if (!record.stages.empty()) text += ",stage";
   return text + "\n";
 }
@@ -27,7 +27,8 @@ std::string row(const Record& record, const RecordPoint& point) {
   text += "," + std::to_string(point.contacts) + "," + round_trip(point.energy) + "," +
           std::to_string(point.iterations) + ",";
   if (point.event) text += to_text(*point.event);
-  if (record.moves_supports) text += "," + (point.unstable_dead ? std::to_string(*point.unstable_dead) : std::string());
+  if (record.moves_supports)
+    text += "," + (point.unstable_load_control ? std::to_string(*point.unstable_load_control) : std::string());
   if (!record.stages.empty()) text += "," + record.stage_of(point.branch);
   return text + "\n";
 }

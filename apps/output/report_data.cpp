@@ -8,7 +8,7 @@
 
 #include "apps/output/event_marks.hpp"
 #include "apps/output/events_text.hpp"
-#include "apps/output/landing_rows.hpp"
+#include "apps/output/jump_rows.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/path_lines.hpp"
 #include "apps/output/roundoff.hpp"
@@ -113,8 +113,8 @@ OrderedJson uncertain_json(const Record& record) {
   std::map<std::size_t, std::pair<double, std::string>> texts;  // with how uncertain it is
   for (const RecordEvent& event : record.events) {
     auto& [uncertain, text] = texts[point_of(event, first)];
-    if (event.localised <= uncertain) continue;
-    uncertain = event.localised;
+    if (event.lambda_uncertainty <= uncertain) continue;
+    uncertain = event.lambda_uncertainty;
     text = shown_lambda(event, digits);
   }
   OrderedJson list = OrderedJson::array();

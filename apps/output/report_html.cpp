@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/output/atlas_page.hpp"
+#include "apps/output/branch_map_page.hpp"
 #include "apps/output/event_marks.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/exit_status.hpp"
-#include "apps/output/landing_rows.hpp"
+#include "apps/output/jump_rows.hpp"
 #include "apps/output/library_versions.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/path_lines.hpp"
@@ -93,7 +93,7 @@ std::string outcome(const Record& record) {
 // What the reader has to know first: which branches did not end where the deck says, why, and what can be done.
 std::string early_ends(const Record& record, const std::string& warning) {
   constexpr std::size_t most = 8;
-  std::string text = warning.empty() ? "" : "<p class=\"early\">Beware: " + escaped(warning) + ".</p>";
+  std::string text = warning.empty() ? "" : "<p class=\"early\"><b>Warning</b>: " + escaped(warning) + ".</p>";
   std::size_t count = 0;
   for (const RecordBranch& branch : record.branches) {
     if (!branch.end || exit_status(branch.end->reason) == ExitStatus::success || ++count > most) continue;
@@ -110,6 +110,8 @@ std::string early_ends(const Record& record, const std::string& warning) {
                         count - most);
   return text;
 }
+
+constexpr const char* jump_colour = "#d55e00";
 
 // --- load over monitors ---------------------------------------------------------------------------------------------
 
@@ -156,7 +158,7 @@ Chart chart(const Record& record, const ReportContent& content, std::optional<st
   if (monitor)
     for (const Jump& jump : jumps(record))
       result.lines.push_back({.points = {{jump.from[*monitor], jump.lambda}, {jump.to[*monitor], jump.lambda}},
-                              .colour = "#d55e00",
+                              .colour = jump_colour,
                               .stability = Stability::undecided});
   const std::vector<std::size_t> first = first_points(record);
   const std::vector<double> zero = roundoff(record);
@@ -203,6 +205,8 @@ std::string legend(const Record& record, const std::vector<Overlay>& overlays) {
   for (std::size_t i = 0; i < overlays.size(); ++i)
     text += fmt::format("<li>{}{}{}</li>", svg_line(overlay_colour(i), Stability::stable),
                         overlays[i].measured ? "measured: " : "", escaped(shown_name(overlays[i].name)));
+  if (!jumps(record).empty())
+    text += fmt::format("<li>{}jump at constant λ</li>", svg_line(jump_colour, Stability::undecided));
   text += "</ul><ul class=\"legend\">";
   std::set<EventKind> kinds;
   for (const RecordEvent& event : record.events) kinds.insert(event.kind);
@@ -329,15 +333,15 @@ std::string event_note(const Record& record) {
   return text;
 }
 
-// What λ of the events depends on; a section of its own where the deck asks for it.
-std::string sensitivities(const Record& record) {
-  const auto rows = sensitivity_rows(record);
+// A section with one table; empty without rows.
+std::string table_section(std::string_view id, std::string_view title, std::string_view note,
+                          const std::vector<TableColumn>& columns, const std::vector<std::vector<std::string>>& rows) {
   if (rows.empty()) return "";
-  const std::vector<TableColumn> columns = sensitivity_columns();
   const auto is_figure = [&](std::size_t i) { return columns[i].side == TableColumn::Side::right; };
-  std::string text =
-      "<section aria-labelledby=\"sensitivity-title\"><h2 id=\"sensitivity-title\">What λ depends on</h2>"
-      "<div class=\"scroll\"><table id=\"sensitivity\"><thead><tr>";
+  std::string text = fmt::format(
+      "<section aria-labelledby=\"{0}-title\"><h2 id=\"{0}-title\">{1}</h2>"
+      "<div class=\"scroll\"><table id=\"{0}\"><thead><tr>",
+      id, title);
   for (std::size_t i = 0; i < columns.size(); ++i)
     text += fmt::format("<th{}>{}</th>", is_figure(i) ? " class=\"figure\"" : "", escaped(columns[i].title));
   text += "</tr></thead><tbody>\n";
@@ -346,7 +350,21 @@ std::string sensitivities(const Record& record) {
     for (std::size_t i = 0; i < row.size(); ++i) text += is_figure(i) ? figure_cell(row[i]) : cell(plain(row[i], 400));
     text += "</tr>\n";
   }
-  return text + "</tbody></table></div></section>";
+  text += "</tbody></table></div>";
+  if (!note.empty()) text += fmt::format("<p class=\"note\">{}</p>", note);
+  return text + "</section>";
+}
+
+std::string sensitivities(const Record& record) {
+  return table_section("sensitivity", "Sensitivity of the event loads", "", sensitivity_columns(),
+                       sensitivity_rows(record));
+}
+
+std::string jump_table(const Record& record) {
+  return table_section("jumps", "Jumps at constant λ",
+                       "Where a stable path ends, the structure jumps. The row gives the state that it comes to rest "
+                       "in, the energy released, the λ at which it jumps back, and the energy dissipated in the loop.",
+                       jump_columns(record), jump_rows(record));
 }
 
 // The branches that leave a branch, and those that leave them in turn.
@@ -366,7 +384,7 @@ std::string branch_tree(const Record& record, std::optional<Index> parent) {
     if (branch.found) items += " begins " + escaped(found_at(record, branch)) + ";";
     items += fmt::format(" {}", counted(static_cast<std::size_t>(branch.points), "point", "points"));
     if (branch.end) items += "; ended: " + escaped(plain(how_it_ended(*branch.end), 400));
-    if (branch.mirrored) items += "; its mirror image is not traced";
+    if (branch.mirror_image) items += "; its mirror image is not traced";
     items += branch_tree(record, branch.id) + "</li>";
   }
   return items.empty() ? "" : "<ul class=\"tree\">" + items + "</ul>";
@@ -387,7 +405,7 @@ ReportContent report_content(const Model& model, const Record& record, const Dra
                         .loads = driven_by_lambda(model.whole_deck()),
                         .deck_text = deck::to_toml(model.whole_deck()),
                         .shapes = draw(drawn, setting_of(model)),
-                        .atlas = atlas_section(record, atlas_of(model, record))};
+                        .branch_map = branch_map_section(record, branch_map_of(model, record))};
   const auto add = [&](const std::string& name, const std::string& value) { content.facts.emplace_back(name, value); };
   add("deck", record.deck);
   for (const std::string& assignment : model.deck().source.assignments) add("--set", assignment);
@@ -444,9 +462,10 @@ ReportPage::ReportPage(const Record& record, const ReportContent& content)
               {"event_titles", event_titles(record)},
               {"event_rows", event_rows(record)},
               {"event_note", event_note(record)},
+              {"jump_table", jump_table(record)},
               {"sensitivities", sensitivities(record)},
               {"branches", branch_tree(record, std::nullopt)},
-              {"atlas", content.atlas},
+              {"branch_map", content.branch_map},
               {"deck", escaped(plain(content.deck_text))},
               {"facts", facts(content)},
               {"data", script_json(data_of(record, content))}} {

@@ -25,7 +25,7 @@ struct ReportContent {
   std::vector<std::pair<std::string, std::string>> facts{};  ///< name and value: counts, versions
   ShapePictures shapes{};
   std::vector<Overlay> overlays{};
-  std::string atlas{};  ///< section of the page; may be empty
+  std::string branch_map{};  ///< section of the page; may be empty
 };
 
 ReportContent report_content(const Model& model, const Record& record, const DrawnScenes& drawn);

@@ -46,7 +46,7 @@ const char* to_text(FoundFate fate) {
   return "";
 }
 
-Index tries(const RecordSearch& search) {
+Index guesses(const RecordSearch& search) {
   return std::accumulate(search.outcomes.begin(), search.outcomes.end(), Index{0});
 }
 
@@ -75,7 +75,7 @@ OrderedJson found_json(const Record& record, const RecordFound& found) {
   OrderedJson monitors = OrderedJson::object();
   for (std::size_t i = 0; i < found.monitors.size(); ++i)
     monitors[record.columns[i].name] = finite_or_null(found.monitors[i]);
-  return {{"word", found.word},
+  return {{"contact_pattern", found.contact_pattern},
           {"monitors", std::move(monitors)},
           {"energy", finite_or_null(found.energy)},
           {"unstable", found.unstable ? OrderedJson(*found.unstable) : OrderedJson(nullptr)},
@@ -87,7 +87,7 @@ OrderedJson found_json(const Record& record, const RecordFound& found) {
 
 std::vector<TableColumn> search_columns() {
   const auto figure = [](std::string title) { return TableColumn{std::move(title), TableColumn::Side::right}; };
-  return {figure("λ"),      figure("known"),       figure("tries"),          figure("found"),
+  return {figure("λ"),      figure("known"),       figure("guesses"),        figure("found"),
           figure("images"), figure("known again"), figure("of nodes alone"), figure("none")};
 }
 
@@ -95,7 +95,7 @@ std::vector<std::vector<std::string>> search_rows(const Record& record) {
   std::vector<std::vector<std::string>> rows;
   for (const RecordSearch& search : record.searches) {
     std::vector<std::string>& row = rows.emplace_back();
-    row = {shown_number(search.lambda, lambda_digits), std::to_string(search.known), std::to_string(tries(search))};
+    row = {shown_number(search.lambda, lambda_digits), std::to_string(search.known), std::to_string(guesses(search))};
     for (const Index count : search.outcomes) row.push_back(std::to_string(count));
   }
   return rows;
@@ -117,7 +117,8 @@ std::vector<std::vector<std::string>> found_rows(const Record& record) {
   for (const RecordSearch& search : record.searches)
     for (const RecordFound& found : search.found) {
       std::vector<std::string>& row = rows.emplace_back();
-      row = {shown_number(search.lambda, lambda_digits), found.word.empty() ? "no contact" : found.word};
+      row = {shown_number(search.lambda, lambda_digits),
+             found.contact_pattern.empty() ? "no contact" : found.contact_pattern};
       for (const double value : found.monitors) row.push_back(shown_number(value, 6));
       row.push_back(shown_number(found.energy, 6));
       row.push_back(found.unstable ? std::to_string(*found.unstable) : "?");
@@ -127,7 +128,7 @@ std::vector<std::vector<std::string>> found_rows(const Record& record) {
 }
 
 std::string search_note() {
-  return "What was not found may be there all the same: more tries, another seed or other values of λ may find it.";
+  return "What was not found may be there all the same: more guesses, another seed or other values of λ may find it.";
 }
 
 OrderedJson search_json(const Record& record) {
@@ -140,7 +141,7 @@ OrderedJson search_json(const Record& record) {
     for (const RecordFound& one : search.found) found.push_back(found_json(record, one));
     at.push_back({{"lambda", finite_or_null(search.lambda)},
                   {"known", search.known},
-                  {"tries", tries(search)},
+                  {"guesses", guesses(search)},
                   {"outcomes", std::move(outcomes)},
                   {"found", std::move(found)}});
   }

@@ -21,7 +21,7 @@ std::string shape_paths(const ShapePictures& shapes, const ShapePicture& picture
 // At the picture itself, or its angles would be believed.
 std::string stretch_note(const ShapePictures& shapes) {
   if (shapes.stretch <= 1.0) return "";
-  return fmt::format("<p class=\"note\">Heights are drawn {} times as large as lengths.</p>", shapes.stretch);
+  return fmt::format("<p class=\"note\">Vertical scale exaggerated {} times.</p>", shapes.stretch);
 }
 
 }  // namespace arcwall

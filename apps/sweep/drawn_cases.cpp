@@ -72,7 +72,7 @@ DrawnCases::DrawnCases(const Collection& collection, const Overview& of_all, con
       .x = order_titles_.front(), .y = keys.size() > 1 ? order_titles_[1] : "", .unit = unit_of_lambda(collection)};
   if (collection.deck().curve)
     curves_.titles = {
-        .x = key_title(collection, collection.deck().curve->over), .load = "λ of the event", .unit = titles_.unit};
+        .x = key_title(collection, collection.deck().curve->parameter), .load = "λ of the event", .unit = titles_.unit};
   for (const std::string& key : keys) {
     const auto found = of_all.keys.find(key);
     ranges_.push_back(found == of_all.keys.end() ? KeyRange() : found->second);

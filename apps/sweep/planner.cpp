@@ -141,7 +141,7 @@ std::vector<Diagnostic> problems_of_base(const Plan& plan, const deck::Value& ro
 void check_cases(const Plan& plan, const std::string& deck_file) {
   deck::Value root;
   try {
-    root = deck::parse_toml(plan.deck_text, deck_file);
+    root = deck::parse_deck(plan.deck_text, deck_file);
   } catch (const InputError& error) {
     Complaints complaints(plan.sweep, error.diagnostics());
     for (const Case& one : plan.cases) complaints.add(one, error);

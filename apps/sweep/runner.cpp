@@ -166,19 +166,11 @@ class Pool {
     const auto& given = request_.options;  // an option that is given twice is refused
     const bool is_given = std::find(given.begin(), given.end(), "--scratch") != given.end();
     if (request_.keep == Keep::records && !is_given) words.emplace_back("--scratch");
+    // What the deck does not say is not asked of each of many cases, unless the options or the case say it.
+    if (!request_.jumps && request_.traced == Traced::path) words.insert(words.end(), {"--set", "path.jumps=false"});
     words.insert(words.end(), given.begin(), given.end());
-    if (leaves_out_landings(one)) words.insert(words.end(), {"--set", "path.landing=false"});
     for (const std::string& assignment : assignments(one)) words.insert(words.end(), {"--set", assignment});
     return result;
-  }
-
-  // What a deck does not say is not asked of each of many cases.
-  bool leaves_out_landings(const Case& one) const {
-    const auto sets_it = [](const auto& pair) { return pair.first == "path.landing"; };
-    const auto passes_it = [](const std::string& word) { return word.find("path.landing") != std::string::npos; };
-    return !request_.landing && request_.traced == Traced::path &&
-           std::none_of(one.set.begin(), one.set.end(), sets_it) &&
-           std::none_of(request_.options.begin(), request_.options.end(), passes_it);
   }
 
   // The limit of time is of one process, not of the case.

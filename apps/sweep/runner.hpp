@@ -23,7 +23,7 @@ struct RunRequest {
   ChildBody body{};                      ///< in place of the program, where it is given
   int jobs = 1;                          ///< processes at a time
   Traced traced = Traced::path;          ///< of each case, by `trace-path run` or `trace-path curve`
-  bool landing = false;                  ///< falls are looked for where the deck does not say
+  bool jumps = false;                    ///< jumps are looked for where the deck does not say
   std::vector<std::string> options{};    ///< of that command, besides those of the case
   std::optional<double> most_seconds{};  ///< of one case
   double patience = 10.0;                ///< a case that does not stop is killed that long after it should have [s]

@@ -38,7 +38,7 @@ bool is_limit(EndReason reason) {
 bool has_a_place(const RecordEvent& event) {
   if (!event.branch_end) return true;
   const EndReason reason = event.branch_end->reason;
-  return reason == EndReason::stop || reason == EndReason::branched || reason == EndReason::joined;
+  return reason == EndReason::stop || reason == EndReason::switched_branch || reason == EndReason::reached_branch;
 }
 
 struct EventsOfBranch {
@@ -48,7 +48,9 @@ struct EventsOfBranch {
 
 // Where a branch that was found has come to what is traced already: it is seen where it passes the λ at which branches
 // began, and which of two branches goes on beyond hangs on their order.
-bool is_known_beyond(EndReason reason) { return reason == EndReason::joined || reason == EndReason::closed_loop; }
+bool is_known_beyond(EndReason reason) {
+  return reason == EndReason::reached_branch || reason == EndReason::closed_loop;
+}
 
 // Without the ends that limits made, or the order of branches that were found.
 EventsOfBranch events_of_branch(const Record& record, Index id) {
@@ -79,7 +81,7 @@ double range_of_lambda(const Record& record) {
 void sort_at_one_lambda(std::vector<const RecordEvent*>& events, double allowed) {
   const auto together = [&](const RecordEvent* a, const RecordEvent* b) {
     const bool between = a->kind != EventKind::start && !b->branch_end;
-    return between && std::abs(a->lambda - b->lambda) <= allowed + a->localised + b->localised;
+    return between && std::abs(a->lambda - b->lambda) <= allowed + a->lambda_uncertainty + b->lambda_uncertainty;
   };
   for (auto first = events.begin(); first != events.end();) {
     auto last = first + 1;
@@ -147,7 +149,7 @@ class Comparer {
     sort_at_one_lambda(second.events, allowed_);
     const auto pairs = paired(first.events.size(), second.events.size(), [&](std::size_t i, std::size_t j) {
       const RecordEvent &a = *first.events[i], &b = *second.events[j];
-      return a.kind == b.kind && a.suspected == b.suspected && name_of(a) == name_of(b);
+      return a.kind == b.kind && a.unconfirmed == b.unconfirmed && name_of(a) == name_of(b);
     });
     std::size_t i = 0, j = 0;
     for (const auto& [to_i, to_j] : pairs) {
@@ -162,8 +164,8 @@ class Comparer {
   void only_in(const std::string& run, const RecordEvent& event, bool other_was_stopped) {
     const std::string what =
         fmt::format("{} on branch {} at λ = {:.10g} is in {} only", name_of(event), event.branch, event.lambda, run);
-    if (event.suspected)
-      comparison_.reservations.push_back(what + "; it is suspected");
+    if (event.unconfirmed)
+      comparison_.reservations.push_back(what + "; it is unconfirmed");
     else if (other_was_stopped)
       comparison_.reservations.push_back(what + "; the other was stopped before");
     else
@@ -171,9 +173,9 @@ class Comparer {
   }
 
   void compare_lambda(const RecordEvent& a, const RecordEvent& b) {
-    if (a.suspected || !has_a_place(a)) return;
+    if (a.unconfirmed || !has_a_place(a)) return;
     ++comparison_.same;
-    const double off = std::abs(a.lambda - b.lambda), allowed = allowed_ + a.localised + b.localised;
+    const double off = std::abs(a.lambda - b.lambda), allowed = allowed_ + a.lambda_uncertainty + b.lambda_uncertainty;
     if (off * comparison_.worst_allowed >= comparison_.worst * allowed) {
       comparison_.worst = off;
       comparison_.worst_allowed = allowed;
@@ -226,7 +228,7 @@ std::optional<Session> traced_again(const Session& run) {
   // What was found began at states that Newton's method came to, which nothing else leads to: branches begin there
   // anew.
   shorter.assignments.emplace_back("path.search=false");
-  shorter.assignments.emplace_back("path.landing=false");  // falls have no steps of the path
+  shorter.assignments.emplace_back("path.jumps=false");  // falls have no steps of the path
   std::optional<Session> again(std::in_place, std::move(shorter));
   if (!again->begin()) return std::nullopt;
   again->trace_also(found_starts(run.record(), again->model()));

@@ -27,8 +27,9 @@ std::optional<Session> traced_again(const Session& run);
 /// Events of branches with the same number, of those that were found in the order in which they were, in their order:
 /// kinds, contacts and monitors, λ, and how branches end.
 ///
-/// λ may differ by what both events say is uncertain (`localised`), and by `discretisation` times the range of λ.
-/// Events that are suspected in either run are reservations; so is all that follows where a run was stopped by a limit.
+/// λ may differ by what both events say is uncertain (`lambda_uncertainty`), and by `discretisation` times the range of
+/// λ. Events that are unconfirmed in either run are reservations; so is all that follows where a run was stopped by a
+/// limit.
 Comparison compare(const Record& stored, const Record& again, double discretisation);
 
 /// What `compare` may take for its last argument: 10⁻⁶ where the mesh moves with the contacts, and is divided anew

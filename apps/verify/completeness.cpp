@@ -87,7 +87,7 @@ void check_counts(const Branch& branch, Findings& findings) {
 // --- contacts -------------------------------------------------------------------------------------------------------
 
 bool is_contact_event(const ListedEvent& event) {
-  return event.kind.starts_with("contact-") && event.kind != "contact-limit-point";
+  return event.kind.starts_with("contact") && event.kind != "contact-limit-point";
 }
 
 // How contacts are told apart: those of nodes by their place, those that slide by their wall, with how many there are.
@@ -125,7 +125,7 @@ bool names(const ListedEvent& event, const std::string& contact, bool slides) {
 void check_contact_changes(const Branch& branch, bool slides, Findings& findings) {
   const auto makes_stretch = [&](Index step) {
     return branch.has_event(step, step, [](const ListedEvent& event) {
-      return event.kind == "contact-spreads" || event.kind == "contact-opens";
+      return event.kind == "contact-spreads" || event.kind == "contact-splits" || event.kind == "contact-opens";
     });
   };
   for (std::size_t i = 0; i + 1 < branch.points.size(); ++i) {
@@ -153,8 +153,8 @@ struct Turning {
 };
 
 bool is_turn(const ListedEvent& event, const Turning& of) {
-  if (event.suspected) return false;
-  if (of.kind == "displacement-limit") return event.kind == of.kind && event.monitor == of.name;
+  if (event.unconfirmed) return false;
+  if (of.kind == "turning-point") return event.kind == of.kind && event.monitor == of.name;
   return event.kind == "limit-point" || event.kind == "contact-limit-point" || event.kind == "branch-point";
 }
 
@@ -197,7 +197,7 @@ bool is_known_ahead(const Branch& branch, std::size_t i) {
   const RecordPoint &before = branch.points[i - 1], &point = branch.points[i];
   return before.state.piece.layout() != point.state.piece.layout() &&
          branch.has_event(point.step, point.step, [](const ListedEvent& event) {
-           return event.kind == "contact-closes" || event.kind == "contact-gathers";
+           return event.kind == "contact-closes" || event.kind == "contact-shrinks" || event.kind == "contacts-merge";
          });
 }
 
@@ -209,7 +209,7 @@ std::vector<double> uncertainty_of_lambda(const Branch& branch) {
     if (is_remeshed(branch, i) || is_known_ahead(branch, i)) uncertain[i] = moved_by_mesh * greatest;
   for (const ListedEvent& event : branch.events)
     if (const auto i = static_cast<std::size_t>(event.step - branch.points[0].step); i < uncertain.size())
-      uncertain[i] = std::max(uncertain[i], event.localised);
+      uncertain[i] = std::max(uncertain[i], event.lambda_uncertainty);
   return uncertain;
 }
 
@@ -240,7 +240,7 @@ void check_turning_points(const Branch& branch, const Record& record, const Mode
     const auto value = [](const RecordPoint& point, Index which) {
       return point.monitors[static_cast<std::size_t>(which)];
     };
-    check_turns(branch, turning(branch, name, "displacement-limit", value, static_cast<Index>(m)), search, findings);
+    check_turns(branch, turning(branch, name, "turning-point", value, static_cast<Index>(m)), search, findings);
   }
 }
 

@@ -17,8 +17,8 @@ struct ListedEvent {
   std::string kind{};
   Index branch = -1, step = -1;
   std::optional<Index> unstable_before{}, unstable_after{};
-  double localised = 0.0;  ///< half-width in λ of what is left uncertain
-  bool suspected = false;
+  double lambda_uncertainty = 0.0;  ///< half-width in λ of what is left uncertain
+  bool unconfirmed = false;
   std::string monitor{};                 ///< of a displacement limit
   std::vector<ContactLabel> contacts{};  ///< that change
 };

@@ -18,7 +18,7 @@ namespace arcwall::verify {
 
 namespace {
 
-const char* const csv_check = "curve.csv tells the states";
+const char* const csv_check = "curve.csv matches the states";
 
 // Eigenvalues of a stiffness whose diagonal is one that are zero at an event.
 constexpr ZeroEigenvalue singular_zero{.least = 1e-6, .of_parts = 1e-4};
@@ -86,11 +86,11 @@ class CurveVerifier {
     check_equilibrium(at, findings);
     const Index closed = std::count_if(at.touches.all.begin(), at.touches.all.end(),
                                        [](const Touch& touch) { return touch.closed && touch.listed; });
-    findings.require("curve.csv tells the states", closed == point.contacts, "contacts");
-    findings.compare("curve.csv tells the states", std::abs(point.lambda - state.lambda), 0.0, "lambda");
+    findings.require("curve.csv matches the states", closed == point.contacts, "contacts");
+    findings.compare("curve.csv matches the states", std::abs(point.lambda - state.lambda), 0.0, "lambda");
     for (std::size_t k = 0; k < curve_.columns.size(); ++k) {
       const double value = model.monitors()[k].quantity->value(state);
-      findings.compare("curve.csv tells the states", std::abs(point.monitors[k] - value),
+      findings.compare("curve.csv matches the states", std::abs(point.monitors[k] - value),
                        1e-12 * std::abs(value) + 1e-14 * (scales.length + scales.force),
                        "monitor " + curve_.columns[k].name);
     }
@@ -162,7 +162,7 @@ std::optional<double> lambda_of_run(const RunDescription& of, const EventCurve& 
   RunDescription run = of;
   run.traced = Traced::path;
   run.assignments = assignments_at(of, curve.key, point.key);
-  for (const char* off : {"path.search=false", "path.landing=false"}) run.assignments.emplace_back(off);
+  for (const char* off : {"path.search=false", "path.jumps=false"}) run.assignments.emplace_back(off);
   Session session(std::move(run));
   if (!session.begin()) return std::nullopt;
   std::optional<double> nearest;

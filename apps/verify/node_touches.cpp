@@ -64,7 +64,7 @@ NodeFunction node_unknowns(const Structure& structure, const MemberSection& sect
 // Which face touches is a choice of the model's: where both could, the one that its candidate has.
 double offset_of(const Model& model, const PlainWall& wall, Index j, SectionPoint point, double half,
                  const State& rest) {
-  if (wall.deck().acts_on == deck::ActsOn::axis || wall.has_outline()) return 0.0;
+  if (wall.deck().contact_surface == deck::ContactSurface::axis || wall.has_outline()) return 0.0;
   const Vec2 meant = model.contact()->candidate(j).point().position(rest);
   const auto distance = [&](double offset) {
     point.offset = offset;

@@ -33,7 +33,7 @@ class PlainWall {
 
   /// How far the axis of a member that touches an outline is from it; 0 of a profile, which its faces touch.
   double kept_off(double half_height) const {
-    return wall_.outline && wall_.acts_on == deck::ActsOn::face ? half_height : 0.0;
+    return wall_.outline && wall_.contact_surface == deck::ContactSurface::face ? half_height : 0.0;
   }
 
   /// Whether there is a surface where a point is.

@@ -373,7 +373,7 @@ CountRange unstable_range(const PointAtHand& at, const ZeroEigenvalue& zero) {
   return range_of_counts(at, zero, Supports::held);
 }
 
-std::optional<CountRange> unstable_dead_range(const PointAtHand& at, const ZeroEigenvalue& zero) {
+std::optional<CountRange> unstable_load_control_range(const PointAtHand& at, const ZeroEigenvalue& zero) {
   const auto is_held = [](const Touch& touch) {
     const auto& unknowns = touch.gap.unknowns;
     return touch.closed && std::find(unknowns.begin(), unknowns.end(), -1) != unknowns.end();

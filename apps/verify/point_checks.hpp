@@ -64,7 +64,7 @@ CountRange unstable_range(const PointAtHand& at, const ZeroEigenvalue& zero);
 
 /// The same where the forces of the supports that λ moves are dead loads, and λ one more unknown. Empty where λ drives
 /// anything else, where the mesh slides, and where a held node is in contact.
-std::optional<CountRange> unstable_dead_range(const PointAtHand& at, const ZeroEigenvalue& zero);
+std::optional<CountRange> unstable_load_control_range(const PointAtHand& at, const ZeroEigenvalue& zero);
 
 /// Whether supports are all that λ drives, on a mesh that does not slide.
 bool is_driven_by_supports_alone(const Model& model);

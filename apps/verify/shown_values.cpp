@@ -32,7 +32,7 @@ std::optional<NodeOfMember> node_of(const Model& model, const deck::Place& place
 
 // The faces of a section that look at the wall: one, or both of a section that stands across it.
 std::vector<double> offsets_of(const PlainWall& wall, double half_height, double angle) {
-  if (wall.deck().acts_on == deck::ActsOn::axis || wall.has_outline()) return {0.0};
+  if (wall.deck().contact_surface == deck::ContactSurface::axis || wall.has_outline()) return {0.0};
   constexpr double level = 1e-9;
   const double up = -wall.side() * std::cos(angle);
   if (std::abs(up) <= level) return {half_height, -half_height};
@@ -118,7 +118,7 @@ std::optional<double> own_value(const PointAtHand& at, const deck::Monitor& moni
 void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double shown, Findings& findings) {
   constexpr double same = 1e-9;  // of the value: that of the place that is shown, where several have nearly as much
   const Model& model = at.model;
-  const bool moment = monitor.component == deck::Component::greatest_moment;
+  const bool moment = monitor.component == deck::Component::max_moment;
   const deck::Foundation* const foundation =
       moment ? nullptr : &std::get<deck::Foundation>(deck::find(model.deck().springs, monitor.spring)->kind);
   const std::size_t member = index_of_member(model, moment ? monitor.member : foundation->member);

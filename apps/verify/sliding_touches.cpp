@@ -66,7 +66,7 @@ std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, c
                                      sign * end[2] / at.body.bending_stiffness(node.strand));
   const double stretch = 1.0 + at.body.free_strain(node.strand, at.now.lambda).value +
                          sign * end.head<2>().dot(unit_tangent(place.angle)) / at.body.axial_stiffness(node.strand);
-  const bool is_face = !wall.has_outline() && wall.deck().acts_on == deck::ActsOn::face;
+  const bool is_face = !wall.has_outline() && wall.deck().contact_surface == deck::ContactSurface::face;
   const double offset = is_face ? -wall.side() * half : 0.0;
   const double stretch_there = stretch - offset * curvature;
   const double opening = wall.side() * (curvature - stretch_there * curvature_touched(wall, face, half));
@@ -160,7 +160,7 @@ void part_pinching_force(Touch& first, Touch& other) {
 }  // namespace
 
 Vec2 face_towards(const PlainWall& wall, double half_height, const AxisPlace& place) {
-  if (wall.deck().acts_on == deck::ActsOn::axis || wall.has_outline()) return place.position;
+  if (wall.deck().contact_surface == deck::ContactSurface::axis || wall.has_outline()) return place.position;
   const Vec2 normal = perp(unit_tangent(place.angle));
   return place.position - (normal.y() >= 0.0 ? 1.0 : -1.0) * wall.side() * half_height * normal;
 }

@@ -85,22 +85,22 @@ std::vector<Row> csv_rows(const std::string& text) {
 }
 
 // branch, step, arc, lambda, monitors …, unstable, stability, contacts, energy, iterations, event, and perhaps
-// unstable_dead and stage
+// unstable_load_control and stage
 void check_path_row(const Row& row, const RecordPoint& point, const PathExpectation& expected, Findings& findings) {
   const std::size_t monitors = expected.monitors.size();
   const std::size_t cells = monitors + 10 + (expected.moves_supports ? 1 : 0) + (expected.stage ? 1 : 0);
   findings.require("path.csv has its columns", row.size() == cells, "number of cells");
   if (row.size() != cells) return;
   const auto same = [&](std::size_t cell, const std::string& what, const std::string& value) {
-    expect_same("path.csv tells the states", row[cell], value, what, findings);
+    expect_same("path.csv matches the states", row[cell], value, what, findings);
   };
   same(0, "branch", std::to_string(point.branch));
   same(1, "step", std::to_string(point.step));
-  findings.compare("path.csv tells the states", std::abs(number(row[2]) - point.arc), 0.0, "arc");
-  findings.compare("path.csv tells the states", std::abs(number(row[3]) - point.state.lambda), 0.0, "lambda");
+  findings.compare("path.csv matches the states", std::abs(number(row[2]) - point.arc), 0.0, "arc");
+  findings.compare("path.csv matches the states", std::abs(number(row[3]) - point.state.lambda), 0.0, "lambda");
   for (std::size_t i = 0; i < monitors; ++i)
     if (std::isfinite(expected.allowed[i]))
-      findings.compare("path.csv tells the states", difference(number(row[4 + i]), expected.monitors[i]),
+      findings.compare("path.csv matches the states", difference(number(row[4 + i]), expected.monitors[i]),
                        expected.allowed[i], "monitor " + expected.names[i]);
   const Row rest(row.begin() + 4 + static_cast<std::ptrdiff_t>(monitors), row.end());
   if (expected.unstable && !rest[0].empty()) {
@@ -112,32 +112,33 @@ void check_path_row(const Row& row, const RecordPoint& point, const PathExpectat
     findings.require("unstable directions", rest[1] != "stable" || count == 0.0, "stability is stable");
     findings.require("unstable directions", rest[1] != "unstable" || most > 0, "stability is unstable");
   }
-  if (expected.unstable_dead && expected.moves_supports && !rest[6].empty()) {
+  if (expected.unstable_load_control && expected.moves_supports && !rest[6].empty()) {
     const double count = number(rest[6]);
-    const auto [least, most] = *expected.unstable_dead;
+    const auto [least, most] = *expected.unstable_load_control;
     findings.compare("unstable directions under dead loads", std::max(double(least) - count, count - double(most)), 0.0,
-                     fmt::format("unstable_dead is {}, dense eigenvalues say {}{}", rest[6], least,
+                     fmt::format("unstable_load_control is {}, dense eigenvalues say {}{}", rest[6], least,
                                  least == most ? "" : fmt::format(" to {}", most)));
   }
-  expect_same("path.csv tells the states", rest[0], point.count.unstable ? std::to_string(*point.count.unstable) : "",
+  expect_same("path.csv matches the states", rest[0], point.count.unstable ? std::to_string(*point.count.unstable) : "",
               "unstable", findings);
-  expect_same("path.csv tells the states", rest[2], std::to_string(expected.contacts), "contacts", findings);
+  expect_same("path.csv matches the states", rest[2], std::to_string(expected.contacts), "contacts", findings);
   if (expected.energy)
-    findings.compare("path.csv tells the states", std::abs(number(rest[3]) - expected.energy->value),
+    findings.compare("path.csv matches the states", std::abs(number(rest[3]) - expected.energy->value),
                      rounding(expected.energy->magnitude), "energy");
-  expect_same("path.csv tells the states", rest[4], std::to_string(point.iterations), "iterations", findings);
+  expect_same("path.csv matches the states", rest[4], std::to_string(point.iterations), "iterations", findings);
   if (expected.moves_supports)
-    expect_same("path.csv tells the states", rest[6], point.unstable_dead ? std::to_string(*point.unstable_dead) : "",
-                "unstable_dead", findings);
-  if (expected.stage) expect_same("path.csv tells the states", rest.back(), *expected.stage, "stage", findings);
-  expect_same("path.csv tells the states", rest[5], point.event ? std::string(to_text(*point.event)) : "", "event",
+    expect_same("path.csv matches the states", rest[6],
+                point.unstable_load_control ? std::to_string(*point.unstable_load_control) : "",
+                "unstable_load_control", findings);
+  if (expected.stage) expect_same("path.csv matches the states", rest.back(), *expected.stage, "stage", findings);
+  expect_same("path.csv matches the states", rest[5], point.event ? std::string(to_text(*point.event)) : "", "event",
               findings);
 }
 
 // branch, step, lambda, wall, member, fraction, x, force, pressure
 void check_contact_rows(const std::vector<Row>& rows, std::size_t& next, const RecordPoint& point,
                         const Touches& touches, double length, Findings& findings) {
-  const std::string check = "contacts.csv tells the states";
+  const std::string check = "contacts.csv matches the states";
   for (const Touch& touch : touches.all) {
     if (!touch.closed || !touch.listed) continue;
     const std::string name = touch.label.wall + " at " + touch.label.member + ":" + round_trip(touch.label.fraction);
@@ -164,7 +165,7 @@ void check_contact_rows(const std::vector<Row>& rows, std::size_t& next, const R
 
 namespace {
 
-const std::string events_check = "events.json tells the states";
+const std::string events_check = "events.json matches the states";
 
 using PointIndex = std::map<std::pair<Index, Index>, const RecordPoint*>;
 
@@ -228,8 +229,8 @@ ListedEvent listed_event(const Json& event) {
                      .step = whole_number(event, "step").value_or(-1),
                      .unstable_before = whole_number(event, "unstable_before"),
                      .unstable_after = whole_number(event, "unstable_after"),
-                     .localised = number(part(event, "localised")),
-                     .suspected = part(event, "suspected") == true,
+                     .lambda_uncertainty = number(part(event, "lambda_uncertainty")),
+                     .unconfirmed = part(event, "unconfirmed") == true,
                      .monitor = text(event, "monitor")};
   for (const Json& contact : part(event, "contact"))
     listed.contacts.push_back({.wall = text(contact, "wall"),

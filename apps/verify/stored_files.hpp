@@ -19,9 +19,9 @@ struct PathExpectation {
       allowed{};                         ///< recomputed, and how far the cells may be from it; infinite: not checked
   std::optional<Energy> energy{};        ///< empty: not checked
   std::optional<CountRange> unstable{};  ///< empty: not checked
-  std::optional<CountRange> unstable_dead{};
+  std::optional<CountRange> unstable_load_control{};
   Index contacts = 0;
-  bool moves_supports = false;         ///< so that it has a column unstable_dead
+  bool moves_supports = false;         ///< so that it has a column unstable_load_control
   std::optional<std::string> stage{};  ///< of a deck with stages
 };
 

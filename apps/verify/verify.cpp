@@ -44,7 +44,7 @@ bool is_reaction(deck::Component component) {
 }
 
 bool is_greatest(deck::Component component) {
-  return component == deck::Component::greatest_moment || component == deck::Component::greatest_pressure;
+  return component == deck::Component::max_moment || component == deck::Component::greatest_pressure;
 }
 
 // Monitors are differences of places, or sums of nodal forces: their round-off is that of these. Reactions of a run in
@@ -95,7 +95,7 @@ ZeroEigenvalue zero_eigenvalue(const Model& model, const Record& record, const R
     if (event.branch != point.branch || !is_here(event.arc, event.step)) return false;
     if (event.step == point.step && point.count.stability == Stability::undecided) return true;
     return event.kind == EventKind::limit_point || event.kind == EventKind::branch_point ||
-           (event.branch_end && event.branch_end->reason == EndReason::continuum);
+           (event.branch_end && event.branch_end->reason == EndReason::equilibrium_family);
   };
   return std::any_of(record.events.begin(), record.events.end(), singular) ? singular_zero : regular;
 }
@@ -127,7 +127,7 @@ std::vector<std::string> left_out(const Model& model, const CountPlan& plan, Ind
       "arc lengths, iterations, residuals, modes and types of branch points: they are not told by single states");
   if (moves_supports)
     sentences.emplace_back(
-        "unstable_dead on meshes that slide, where held nodes touch, and where λ drives more than supports");
+        "unstable_load_control on meshes that slide, where held nodes touch, and where λ drives more than supports");
   if (!model.in_increments())
     sentences.emplace_back("what happens and is undone between two points of the path; --again traces it anew");
   return sentences;
@@ -171,7 +171,8 @@ class Verifier {
     const auto makes_stretch = [&](Index step) {
       return std::any_of(record_.events.begin(), record_.events.end(), [&](const RecordEvent& event) {
         return event.branch == record_.points[number].branch && event.step == step &&
-               (event.kind == EventKind::contact_spreads || event.kind == EventKind::contact_opens);
+               (event.kind == EventKind::contact_spreads || event.kind == EventKind::contact_splits ||
+                event.kind == EventKind::contact_opens);
       });
     };
     return change_before(record_.points, number, makes_stretch) != number;
@@ -197,7 +198,8 @@ class Verifier {
       if (count) {
         const ZeroEigenvalue zero = zero_eigenvalue(model, record_, point);
         expected.unstable = unstable_range(at, zero);
-        if (record_.moves_supports && point.unstable_dead) expected.unstable_dead = unstable_dead_range(at, zero);
+        if (record_.moves_supports && point.unstable_load_control)
+          expected.unstable_load_control = unstable_load_control_range(at, zero);
       }
     }
     if (number < path_rows_.size()) {
@@ -229,7 +231,7 @@ std::string to_text(const Verdict& verdict) {
   using Side = TableColumn::Side;
   std::vector<std::vector<std::string>> rows;
   for (const CheckSummary& check : verdict.findings.checks())
-    rows.push_back({check.name, std::to_string(check.count), fmt::format("{:.3g}", check.value),
+    rows.push_back({check.name, std::to_string(check.count), fmt::format("{:.3g}", std::max(check.value, 0.0)),
                     fmt::format("{:.3g}", check.bound), check.branch < 0 ? "" : std::to_string(check.branch),
                     std::to_string(check.step)});
   std::string text = text_table({{"check", Side::left},
@@ -239,7 +241,7 @@ std::string to_text(const Verdict& verdict) {
                                  {"branch", Side::right},
                                  {"step", Side::right}},
                                 rows);
-  text += "\nnot checked:\n";
+  text += fmt::format("\nAll {} checks passed.\n\nnot checked:\n", verdict.findings.checks().size());
   for (const std::string& sentence : verdict.not_checked) text += "- " + sentence + "\n";
   return text;
 }

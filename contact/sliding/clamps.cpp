@@ -95,8 +95,8 @@ std::vector<Transition> clamps_are_left(const SlidingSetting& setting, const Sli
   std::vector<Transition> transitions;
   for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
     transitions.push_back(with_parts(setting, at, clamps, factor * length));
-  transitions.push_back(
-      unsupported("a member comes to lie on a wall from a held end on, and no equilibrium was found that lies there"));
+  transitions.push_back(unsupported(
+      "a member comes into contact with a wall from its fixed end on, but no equilibrium with that contact was found"));
   return transitions;
 }
 
@@ -118,7 +118,9 @@ std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, co
     if (!transition.quantity) transition.quantity = std::make_shared<BoundValue>(setting, i);
     transition.contacts.push_back(static_cast<Index>(transition.guess.get().piece.size() + i));
   }
-  return {transition, unsupported("a part on a wall gathers at a held end, and no equilibrium was found without it")};
+  return {
+      transition,
+      unsupported("the contact zone at a fixed end shrinks to zero length, but no equilibrium without it was found")};
 }
 
 }  // namespace arcwall::sliding

@@ -161,7 +161,7 @@ std::vector<double> lengths_inside(const SlidingBody& body, Index strand, bool o
 
 Transition nothing_lifted() {
   return unsupported(
-      "a part that is pressed on a wall lifts off inside, and no equilibrium with one free stretch was found");
+      "a contact zone separates from the wall in its interior, but no equilibrium with one free span was found");
 }
 
 // Parts with free spans in each of these lengths; `bounds`: what is told to open.
@@ -262,7 +262,8 @@ std::optional<Transition> parts_leave(const SlidingSetting& setting, const Slidi
 std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
   const Nodes nodes = lifting_nodes(setting, at, arrival);
   if (auto leave = strands_leave(setting, at, arrival))
-    return {std::move(*leave), unsupported("a member leaves its wall, and no equilibrium was found")};
+    return {std::move(*leave),
+            unsupported("a member separates from its wall along its whole length, but no equilibrium was found")};
   std::vector<Transition> transitions;
   if (auto leave = parts_leave(setting, at, arrival)) transitions.push_back(std::move(*leave));
   LiftOffs lifts;

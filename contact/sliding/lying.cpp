@@ -160,11 +160,10 @@ std::string why_not_lying(const SlidingSetting& setting, const SlidingState& at,
   for (Index strand = 0; strand < setting.body.strands(); ++strand) {
     const auto obstacle = at.layout.lies_on(strand);
     if (!obstacle || !is_driven_into(setting, at, strand, *obstacle, toward)) continue;
-    return "member \"" + setting.body.label({.strand = strand, .s = 0.0}).first + "\" lies on wall \"" +
+    return "member \"" + setting.body.label({.strand = strand, .s = 0.0}).first + "\" rests on wall \"" +
            setting.obstacles[*obstacle].name +
-           "\" from end to end, and λ turns a clamped end of the member or moves an end and the wall into each other: "
-           "that "
-           "is not modelled; use contact.points = \"nodes\"";
+           "\" along its whole length, and λ rotates a fixed end of the member or moves an end and the wall into each "
+           "other: that is not modelled; use contact.points = \"nodes\"";
   }
   return {};
 }
@@ -172,8 +171,7 @@ std::string why_not_lying(const SlidingSetting& setting, const SlidingState& at,
 std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingState& at, Index strand,
                                   const std::vector<bool>& ends) {
   const Transition none = unsupported(
-      "the end of a member is lifted off the wall that it lies on, and no equilibrium "
-      "was found in which it peels off");
+      "the end of a member lifts off the wall that it rests on, but no equilibrium in which it peels off was found");
   const auto obstacle = at.layout.lies_on(strand);
   if (!obstacle) return {none};
   const double L = setting.body.length(strand);

@@ -121,7 +121,7 @@ Transition joined(const SlidingSetting& setting, const SlidingState& at, const P
     if (before != behind) edit.place(*k) += moved;
     if (std::find(edit.strands.begin(), edit.strands.end(), strand) != edit.strands.end()) continue;
     if (!setting.obstacles[obstacle].surface->knots().empty())
-      return unsupported("a member comes to lie on a curved wall from end to end");
+      return unsupported("a member comes into contact with a curved wall along its whole length");
     edit.set_lying(strand, obstacle);
   }
   const bool at_jump = gaps.size() == 1 && bridges_pulling_jump(setting, at, gaps.front());

@@ -44,7 +44,7 @@ Continuum continuum_of(const SlidingState& at, Index lines) {
 Transition end_before(const Continuum& common) {
   return {.change = Transition::Change::continuum,
           .detail = "at this load " + counted(common.parts, "contact") +
-                    " would grow from points into lines at the same time. Equilibrium determines only the sum of their "
+                    " would grow from points into zones at the same time. Equilibrium determines only the sum of their "
                     "lengths, " +
                     round_trip(common.length) + " here, not each of them; all these equilibria have the same energy, " +
                     round_trip(common.energy),
@@ -75,15 +75,13 @@ bool has_load_between(const SlidingSetting& setting, Index strand, double from, 
 std::string why_none_spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
   const auto straight = [&](std::size_t k) { return obstacle_curvature(setting, at, k) == 0.0; };
   const auto count = static_cast<Index>(points.size());
-  std::string text = counted(count, "point") + " of contact " + (count > 1 ? "become stretches" : "becomes a stretch") +
-                     ", and no equilibrium with short ones was found";
+  std::string text = counted(count, "contact point") + (count > 1 ? " become zones" : " becomes a zone") +
+                     ", but no equilibrium with short ones was found";
   if (std::any_of(points.begin(), points.end(), [&](std::size_t k) { return has_load_beside(setting, at, k); }))
     text += " beside the point load there";
   const bool others = points.size() < at.layout.points().size();
   if ((count > 1 || others) && std::all_of(points.begin(), points.end(), straight))
-    text +=
-        "; the structure is nearly perfect, and of a perfect one only the sum of the lengths of all stretches is "
-        "determined";
+    text += "; the structure is nearly perfect, and a perfect one determines only the sum of the lengths of all zones";
   return text;
 }
 
@@ -408,7 +406,8 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
   const Points points = points_without_curvature(setting, at, arrival);
   if (points.size() == 1)
     if (auto touches = tip_touches_with(setting, at, points.front()))
-      return {std::move(*touches), unsupported("a tip touches with the part beside it, and no equilibrium was found")};
+      return {std::move(*touches),
+              unsupported("a free end and the contact zone beside it touch at once, but no equilibrium was found")};
   Index lines =
       std::count_if(points.begin(), points.end(), [&](std::size_t k) { return lies_by_itself(setting, at, k); });
   const bool new_lines = lines > 0;

@@ -168,14 +168,14 @@ std::optional<std::string> what_hinders(const SlidingSetting& setting, const Sli
                                         Span inner) {
   const Beyond beyond = beyond_end(setting, at, end);
   if (beyond == Beyond::step)
-    return "contact came to a joint behind which the member is thicker, and its step would touch";
+    return "the contact point reached a joint beyond which the section is deeper: its step would touch";
   if (beyond == Beyond::hollow_bend)
-    return "contact came to a hollow joint of members, behind which the next one would touch";
+    return "the contact point reached a re-entrant joint, where the next member would also touch the wall";
   if (inner == Span::free) return std::nullopt;
   if (setting.body.is_tip(end.strand, end.last) && inner == Span::pressed) return std::nullopt;
-  if (setting.body.is_tip(end.strand, end.last)) return "a part that lies on a wall reached the free end of its member";
-  if (beyond == Beyond::same_face) return "a part that lies on a wall reached a joint behind which its face goes on";
-  if (inner == Span::pressed) return "a part that is pressed on a wall reached a corner of the body";
+  if (setting.body.is_tip(end.strand, end.last)) return "a contact zone reached the free end of its member";
+  if (beyond == Beyond::same_face) return "a contact zone reached a joint beyond which the face continues";
+  if (inner == Span::pressed) return "a contact zone reached a corner of the structure";
   return std::nullopt;
 }
 
@@ -259,9 +259,9 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
   const auto has_joint = std::any_of(tips.begin(), tips.end(), [&](const ClosedTip& tip) {
     return setting.body.joined_end(tip.strand, tip.last).has_value();
   });
-  const Transition none =
-      unsupported(has_joint ? "a joint of members lies down on a wall, and no equilibrium was found there"
-                            : "the end of a member lies down on a wall, and no equilibrium was found there");
+  const Transition none = unsupported(
+      has_joint ? "a joint comes into full contact with a wall, but no equilibrium was found there"
+                : "the end of a member comes into full contact with a wall, but no equilibrium was found there");
   if (tips.empty()) return {none};
   const double length = 2.0 * shortest_tail(setting.body, tips.front().strand);
   const Transition free = with_points_inside(setting, at, tips, std::vector(tips.size(), Tail::off), length);
@@ -306,7 +306,7 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
       return contact.is_of(of) && contact.obstacle == at.layout.points()[point].obstacle;
     });
     if (found == setting.free_ends.end())
-      return {unsupported("a contact point reached a hinged end of its member, where contact is the support's")};
+      return {unsupported("a contact point reached a pinned end of its member, where the support carries the force")};
     const auto end = static_cast<std::size_t>(found - setting.free_ends.begin());
     const FreeEnd there = found->seen_from(of);
     if (auto why = what_hinders(setting, at, there, inner)) return {unsupported(std::move(*why))};
@@ -333,14 +333,13 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
                                            : Change::passes,
                                 std::move(guess));
   for (const std::size_t end : ends) transition.contacts.push_back(static_cast<Index>(on->points().size() + end));
-  return {transition, unsupported("contact came to the end of a member, and no equilibrium was found there")};
+  return {transition, unsupported("a contact point reached the end of a member, but no equilibrium was found there")};
 }
 
 std::vector<Transition> peel_off_from_tips(const SlidingSetting& setting, const SlidingState& at,
                                            const std::vector<StrandEnd>& tips, bool lifted) {
   const Transition none = unsupported(
-      "a part that lies on a wall up to the free end of its member peels off from there, and no such equilibrium was "
-      "found");
+      "a contact zone up to the free end of its member peels off from there, but no such equilibrium was found");
   std::vector<Transition> transitions;
   for (const double factor : {2.0, 8.0, 32.0, 128.0}) {
     const double length = factor * shortest_tail(setting.body, tips.front().strand);

@@ -36,14 +36,16 @@ bool is_change_of_contact(EventKind kind) {
     case EventKind::contact_closes:
     case EventKind::contact_opens:
     case EventKind::contact_spreads:
-    case EventKind::contact_gathers:
-    case EventKind::contact_passes:
+    case EventKind::contact_splits:
+    case EventKind::contact_shrinks:
+    case EventKind::contacts_merge:
+    case EventKind::contact_transfers:
       return true;
     case EventKind::start:
     case EventKind::end:
     case EventKind::limit_point:
     case EventKind::contact_limit_point:
-    case EventKind::displacement_limit:
+    case EventKind::turning_point:
     case EventKind::branch_point:
     case EventKind::user:
       break;
@@ -174,8 +176,8 @@ EventDerivatives::EventDerivatives(const System& system, const Arc& arc, const E
       turning_(turning) {
   const BranchPoint* const crossing = crossing_at(arc);
   const bool corner = is_at_change_of_contact(arc) || turns_at_kink(system, event);
-  if (event.suspected) {
-    why_none_ = "the event is only suspected";
+  if (event.unconfirmed) {
+    why_none_ = "the event is unconfirmed";
   } else if (corner) {
     condition_ = Condition::guards;
   } else if (event.kind == EventKind::contact_limit_point) {
@@ -186,7 +188,7 @@ EventDerivatives::EventDerivatives(const System& system, const Arc& arc, const E
       why_none_ = "several modes are critical at once";
     else if (crossing->modes.empty())
       why_none_ = "the critical mode is not known";
-  } else if (event.kind == EventKind::displacement_limit) {
+  } else if (event.kind == EventKind::turning_point) {
     condition_ = Condition::turning;
   }
   if (!why_none_.empty()) return;
@@ -236,7 +238,7 @@ bool EventDerivatives::begin_crossing(const BranchPoint& point) {
       bend_(i, j) = bend_(j, i) = of.value;
       bend_off_(i, j) = bend_off_(j, i) = of.off;
     }
-  is_symmetric_ = point.type == BranchType::symmetric || std::abs(bend_(0, 0)) <= symmetric * std::abs(bend_(0, 1));
+  is_symmetric_ = point.type == BranchType::pitchfork || std::abs(bend_(0, 0)) <= symmetric * std::abs(bend_(0, 1));
   return bend_.allFinite();
 }
 

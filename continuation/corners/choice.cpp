@@ -111,9 +111,10 @@ Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std:
                        [&](const Direction& d) { return metric.inner(d, direction) > same_way; });
   });
   if (ways.empty()) {
-    choice.result =
-        again ? BranchEnd{.reason = EndReason::closed_loop, .detail = "the branch came back to a change of contact"}
-              : BranchEnd{.reason = EndReason::no_ray, .detail = "no equilibrium leaves the change of contact"};
+    choice.result = again ? BranchEnd{.reason = EndReason::closed_loop,
+                                      .detail = "the branch came back to a change of contact that it had passed"}
+                          : BranchEnd{.reason = EndReason::no_continuation,
+                                      .detail = "no equilibrium continues the path beyond the change of contact"};
     return choice;
   }
   ChosenDirection chosen = ways.size() == 1

@@ -22,7 +22,7 @@ struct Corner {
 };
 
 /// Why a path ends where none of the ways that it may take behind a corner has a point.
-inline constexpr std::string_view nothing_behind_change = "behind a change of contact";
+inline constexpr std::string_view nothing_behind_change = "beyond a change of contact";
 
 /// A piece that was entered behind a transition that makes a span: its first point has one of some length.
 struct EnteredPiece {

@@ -16,19 +16,24 @@ namespace {
 
 constexpr int most_bounds_at_one_place = 50;
 
-// Of a transition that is an event.
-EventKind kind_of(Transition::Change change) {
-  switch (change) {
+// Of a transition that is an event. `more`: separate contacts ahead of it, less those before it. A zone that begins or
+// ends at a support, whose guard is a bound, is no part of another contact.
+EventKind kind_of(const Transition& transition, Index more, const Piece& of_contacts) {
+  const bool at_support = std::any_of(transition.contacts.begin(), transition.contacts.end(),
+                                      [&](Index j) { return j >= static_cast<Index>(of_contacts.contacts()); });
+  switch (transition.change) {
     case Transition::Change::spreads:
-      return EventKind::contact_spreads;
+      return more == 0 || at_support ? EventKind::contact_spreads
+             : more > 0              ? EventKind::contact_splits
+                                     : EventKind::contacts_merge;
     case Transition::Change::gathers:
-      return EventKind::contact_gathers;
+      return more < 0 && !at_support ? EventKind::contacts_merge : EventKind::contact_shrinks;
     case Transition::Change::splits:
-      return EventKind::contact_opens;
+      return more > 0 ? EventKind::contact_splits : EventKind::contact_opens;
     case Transition::Change::joins:
-      return EventKind::contact_closes;
+      return more < 0 ? EventKind::contacts_merge : EventKind::contact_closes;
     case Transition::Change::passes:
-      return EventKind::contact_passes;
+      return EventKind::contact_transfers;
     case Transition::Change::remeshed:
     case Transition::Change::continuum:
     case Transition::Change::unsupported:
@@ -44,7 +49,7 @@ BranchEnd end_before(const std::vector<Transition>& transitions, const std::stri
     return {.reason = EndReason::singular, .detail = with_place(nothing_behind_change, place)};
   const Transition& last = transitions.back();
   const bool continuum = last.change == Transition::Change::continuum;
-  return {.reason = continuum ? EndReason::continuum : EndReason::unsupported,
+  return {.reason = continuum ? EndReason::equilibrium_family : EndReason::not_modelled,
           .detail = with_place(last.detail, place),
           .continuum = last.continuum};
 }
@@ -76,12 +81,14 @@ void add_events(TraceTools& tools, const Corner& corner, const PathPoint& at, co
               .guards = transition.contacts,
               .continuum = transition.continuum};
   if (transition.change != Transition::Change::remeshed) {
-    event.kind = kind_of(transition.change);
+    const Piece &before = at.state.piece, &behind = ahead.state.piece;
+    const Index more = tools.system.separate_contacts(behind) - tools.system.separate_contacts(before);
+    event.kind = kind_of(transition, more, transition.change == Transition::Change::gathers ? behind : before);
     if (!begins_with_length(transition)) {
       event.state = entered.at.state;
       event.residual = entered.at.residual;
-      event.localised = entered.at.unsettled * corner.lambda_scale + lies_back_by(at, entered.at) +
-                        scatter_of(tools, entered, corner.lambda_scale);
+      event.lambda_uncertainty = entered.at.unsettled * corner.lambda_scale + lies_back_by(at, entered.at) +
+                                 scatter_of(tools, entered, corner.lambda_scale);
     }
     events.push_back(event);
     event.guards.clear();
@@ -103,7 +110,7 @@ std::optional<BranchPoint> pitchfork_at_corner(TraceTools& tools, const Corner& 
   if (begin.count.unstable <= corner.before.unstable) return std::nullopt;
   const Metric metric = tools.metric_on(begin.state.piece, corner.lambda_scale);
   BranchPoint point = branch_point_before(tools.system, tools.corrector, metric, begin);
-  if (point.type != BranchType::symmetric || point.mode.dx.size() == 0) return std::nullopt;
+  if (point.type != BranchType::pitchfork || point.mode.dx.size() == 0) return std::nullopt;
   point.at_corner = true;
   return point;
 }
@@ -169,8 +176,8 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
                                     : mesh_bound_behind(tools.system, passed.at, tools.options.guard_tolerance);
     if (!next) return passed;
     if (++passed.without_progress > most_bounds_at_one_place) {
-      passed.end = {.reason = EndReason::no_ray,
-                    .detail = with_place("the mesh keeps changing at one point; try a finer one",
+      passed.end = {.reason = EndReason::no_continuation,
+                    .detail = with_place("the mesh changes again and again at one point; use more elements",
                                          tools.system.watched_place(passed.at.state, *next))};
       return passed;
     }

@@ -28,7 +28,7 @@ Event one_sided_branch_point(const TraceTools& tools, const Corner& corner, cons
   point->type = BranchType::one_sided;
   point->state = behind.state;
   point->along = behind.tangent;
-  point->discretisation = tools.options.node_contacts;
+  point->mesh_artefact = tools.options.node_contacts;
   for (const OutgoingDirection& way : untaken) {
     const Metric metric = tools.metric_on(way.piece, corner.lambda_scale);
     point->ways.push_back({.piece = way.piece, .direction = unit(metric, way.direction)});
@@ -48,7 +48,7 @@ std::vector<Event> events_at(const TraceTools& tools, const Corner& corner, cons
   Event event{.state = behind.state,
               .arc = behind.arc,
               .residual = corner.at.residual,
-              .localised = 0.0,
+              .lambda_uncertainty = 0.0,
               .unstable_before = corner.before.unstable,
               .unstable_after = behind.count.unstable};
   const Piece &old = corner.at.state.piece, &now = behind.state.piece;
@@ -171,8 +171,8 @@ CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> 
     return with_place(what, first ? tools.system.watched_place(corner.at.state, *first) : std::string());
   };
   if (corner.without_progress > most_changes_at_one_place) {
-    passed.end = {.reason = EndReason::no_ray,
-                  .detail = with_its_place("the contacts keep changing at one point; try a finer mesh")};
+    passed.end = {.reason = EndReason::no_continuation,
+                  .detail = with_its_place("the contacts change again and again at one point; use more elements")};
     return passed;
   }
   auto ways =
@@ -209,6 +209,7 @@ void add_turns(const TraceTools& tools, const std::vector<int>& signs_before, co
     if (!triggers(detector, signs_before[i], now[i])) continue;
     event.kind = detector.kind == EventKind::limit_point ? EventKind::contact_limit_point : detector.kind;
     event.label = detector.label;
+    event.extremum = extremum_at(detector.kind, signs_before[i]);
     events.push_back(event);
   }
 }

@@ -24,7 +24,7 @@ void find_other_tangent(const Equations& system, const Metric& metric, const Vec
   const double b = eigenvalue_rate(system, point.state, point.along, left, point.mode.dx, beside);
   const double a = eigenvalue_rate(system, point.state, point.mode, left, point.mode.dx, beside);
   const bool symmetric = std::abs(a) <= std::max(negligible * std::abs(b), eigenvalue_rate_roundoff(left, beside));
-  point.type = symmetric ? BranchType::symmetric : BranchType::asymmetric;
+  point.type = symmetric ? BranchType::pitchfork : BranchType::transcritical;
   Direction other = point.mode;
   if (!symmetric) {
     const double beta = -a / (2.0 * b);
@@ -117,7 +117,7 @@ double eigenvalue_rate_roundoff(const Vector& left, const Linearization& workspa
 
 BranchPoint branch_point_at(const Equations& system, Corrector& corrector, const Metric& metric,
                             const SingularPlace& place) {
-  BranchPoint point{.type = BranchType::undetermined,
+  BranchPoint point{.type = BranchType::multiple,
                     .state = place.point.state,
                     .along = place.point.tangent,
                     .multiplicity = place.multiplicity,
@@ -145,7 +145,7 @@ BranchPoint branch_point_at(const Equations& system, Corrector& corrector, const
 BranchPoint branch_point_before(const Equations& system, Corrector& corrector, const Metric& metric,
                                 const PathPoint& behind) {
   BranchPoint point{
-      .type = BranchType::undetermined, .state = behind.state, .along = behind.tangent, .multiplicity = 1, .change = 1};
+      .type = BranchType::multiple, .state = behind.state, .along = behind.tangent, .multiplicity = 1, .change = 1};
   corrector.inspect(point.state, metric, point.along);
   const auto pair = nearest_negative(corrector, point.state, metric.weights());
   std::vector<Vector> modes = pair ? modes_of(corrector, *pair, 1) : std::vector<Vector>{};
@@ -170,7 +170,7 @@ void find_crossing_branch(Corrector& corrector, const Metric& metric, BranchPoin
   if (!(std::abs(cosine) > along && std::abs(of_greatest) < work)) return;
   auto y = corrector.response_across(metric.row(point.mode), -F_lambda);
   if (!y) return;
-  point.type = BranchType::symmetric;
+  point.type = BranchType::pitchfork;
   point.other = unit(metric, {.dx = std::move(*y), .dlambda = 1.0});
   for (const Direction& direction : {point.other, reversed(point.other)})
     point.ways.push_back({.piece = point.state.piece, .direction = direction});

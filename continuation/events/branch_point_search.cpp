@@ -26,17 +26,17 @@ SingularPoint singular_at(TraceTools& tools, const StepOrigin& origin, const Sin
                           double chord_dlambda) {
   auto branching = std::make_shared<BranchPoint>(branch_point_at(tools.system, tools.corrector, origin.metric, place));
   const double uncertain = place.half_width + roundoff_width(tools.corrector, origin.metric, place, *branching);
-  branching->localised = uncertain * std::abs(chord_dlambda);
+  branching->lambda_uncertainty = uncertain * std::abs(chord_dlambda);
   PathPoint at = point_at(tools, origin, place);
-  branching->discretisation = made_by_nodes(tools, at.state);
-  if (tools.system.multiplier_count(at.state.piece) > 0 && branching->type == BranchType::asymmetric &&
+  branching->mesh_artefact = made_by_nodes(tools, at.state);
+  if (tools.system.multiplier_count(at.state.piece) > 0 && branching->type == BranchType::transcritical &&
       branching->mode.dx.size() > 0 && is_one_sided(tools, origin, *branching))
     branching->type = BranchType::one_sided;
   return {.place = {.what = EventPlace::What::branch_point, .which = 0, .t = place.t, .half_width = 0.0},
           .at = std::move(at),
           .change = place.change,
           .branching = std::move(branching),
-          .suspected = place.touches};
+          .unconfirmed = place.touches};
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ EventDetector turning_detector(const Equations& system, const Metric& metric,
     const double norm = std::hypot(here.dual_norm(row), own);
     return norm > 0.0 ? along / norm : 0.0;
   };
-  return {.kind = EventKind::displacement_limit, .label = std::move(label), .value = rate, .integral = nullptr};
+  return {.kind = EventKind::turning_point, .label = std::move(label), .value = rate, .integral = nullptr};
 }
 
 }  // namespace arcwall

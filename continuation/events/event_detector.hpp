@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "continuation/metric.hpp"
@@ -30,6 +31,12 @@ struct EventDetector {
 inline bool triggers(const EventDetector& detector, int before, int after) {
   const bool wanted = detector.crossing == Crossing::any || (after > 0) == (detector.crossing == Crossing::rising);
   return before * after < 0 && wanted;
+}
+
+/// Which way λ turns where a detector triggers that had this sign before; empty if it is not that of limit points.
+inline std::optional<Extremum> extremum_at(EventKind kind, int before) {
+  if (kind != EventKind::limit_point || before == 0) return std::nullopt;
+  return before > 0 ? Extremum::maximum : Extremum::minimum;
 }
 
 /// λ′ of the unit tangent, scaled to [−1, 1]: its zeros are limit points.

@@ -145,10 +145,10 @@ void add_branch_point_at_limit(TraceTools& tools, const StepOrigin& origin, cons
                    second(*pairs) < 0.1 * second(after.nearest);
   place.touches = !place.at_limit;
   auto branching = std::make_shared<BranchPoint>(branch_point_at(tools.system, tools.corrector, metric, place));
-  branching->localised = sides.distance * std::abs(limit.at.tangent.dlambda);
-  branching->discretisation = made_by_nodes(tools, limit.at.state);
+  branching->lambda_uncertainty = sides.distance * std::abs(limit.at.tangent.dlambda);
+  branching->mesh_artefact = made_by_nodes(tools, limit.at.state);
   if (place.touches) find_crossing_branch(tools.corrector, metric, *branching);
-  limit.suspected = place.touches && branching->ways.empty();
+  limit.unconfirmed = place.touches && branching->ways.empty();
   limit.branching = std::move(branching);
 }
 
@@ -197,7 +197,7 @@ SingularSearch find_touching_limit(TraceTools& tools, const StepOrigin& origin, 
   return {.points = {{.place = {.what = EventPlace::What::detector, .which = 0, .t = place.t, .half_width = 0.0},
                       .at = point_at(tools, origin, place),
                       .change = place.change,
-                      .suspected = place.touches}}};
+                      .unconfirmed = place.touches}}};
 }
 
 bool hides_two_zeros(const std::vector<EventDetector>& detectors, const Segment& segment, double part) {

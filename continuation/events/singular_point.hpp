@@ -30,12 +30,12 @@ struct SingularPoint {
   PathPoint at{};
   Index change = 0;                                ///< of the number of negative eigenvalues across it
   std::shared_ptr<const BranchPoint> branching{};  ///< empty: a limit point alone
-  bool suspected = false;                          ///< zero is touched without a change of sign
+  bool unconfirmed = false;                        ///< zero is touched without a change of sign
   double uncertain = 0.0;                          ///< of λ, besides what the place's half width makes of it
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(place, at, change, branching, suspected, uncertain);
+    archive(place, at, change, branching, unconfirmed, uncertain);
   }
 };
 

@@ -67,9 +67,10 @@ Event detector_event(const TraceTools& tools, const StepOrigin& origin, const Ar
           .state = at.state,
           .arc = at.arc,
           .residual = at.residual,
-          .localised = std::max(std::abs(at.tangent.dlambda) * width + 0.5 * bend * width * width, roundoff),
+          .lambda_uncertainty = std::max(std::abs(at.tangent.dlambda) * width + 0.5 * bend * width * width, roundoff),
           .unstable_before = origin.from.count_after.unstable,
-          .unstable_after = behind.unstable};
+          .unstable_after = behind.unstable,
+          .extremum = extremum_at(detector.kind, origin.from.signs[end.event->which])};
 }
 
 Event branch_point_event(const StepOrigin& origin, const SingularPoint& singular, const PathPoint& at,
@@ -79,8 +80,8 @@ Event branch_point_event(const StepOrigin& origin, const SingularPoint& singular
           .state = at.state,
           .arc = at.arc,
           .residual = at.residual,
-          .localised = std::max(singular.branching->localised, roundoff),
-          .suspected = singular.suspected,
+          .lambda_uncertainty = std::max(singular.branching->lambda_uncertainty, roundoff),
+          .unconfirmed = singular.unconfirmed,
           .unstable_before = origin.from.count_after.unstable,
           .unstable_after = behind.unstable,
           .branching = singular.branching};
@@ -125,9 +126,10 @@ std::vector<Event> events_at(const TraceTools& tools, const StepOrigin& origin, 
     if (first.branching) events.push_back(branch_point_event(origin, first, end.point, behind));
     if (first.place.what == EventPlace::What::detector) {
       events.push_back(detector_event(tools, origin, end, behind));
-      events.back().suspected = first.suspected && !first.branching;
+      events.back().unconfirmed = first.unconfirmed && !first.branching;
+      if (events.back().unconfirmed) events.back().extremum.reset();  // λ touches its extreme value without turning
     }
-    for (Event& event : events) event.localised = std::max(event.localised, first.uncertain);
+    for (Event& event : events) event.lambda_uncertainty = std::max(event.lambda_uncertainty, first.uncertain);
   } else if (end.event && end.event->what != EventPlace::What::target_value) {
     events.push_back(detector_event(tools, origin, end, behind));
   }
@@ -148,7 +150,7 @@ StabilityCount count_behind(TraceTools& tools, const StepOrigin& origin, const A
 
 std::vector<int> signs_behind(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end) {
   const std::vector<int>& before = origin.from.signs;
-  const bool touched = !end.singular.empty() && end.singular.front().suspected && !end.singular.front().branching;
+  const bool touched = !end.singular.empty() && end.singular.front().unconfirmed && !end.singular.front().branching;
   std::vector<int> signs = signs_at(tools.detectors, end.point);
   for (std::size_t i = 0; i < signs.size(); ++i) {
     if (signs[i] == 0) signs[i] = before[i];

@@ -102,10 +102,10 @@ std::optional<StepOutcome> strayed(const System& system, const StepOrigin& origi
   const Direction chord = difference(end.point.state, origin.point().state);
   const bool is_short = origin.metric.norm(chord) <= 2.0 * s;
   if (is_short && s <= over_a_kink && system.may_have_kink(origin.point().state, end.point.state)) return std::nullopt;
-  if (end.turn > options.max_turn) return StepOutcome::turned;
+  if (end.turn > options.max_turn) return StepOutcome::tangent_angle;
   const bool near = is_short && angle_between(metric, origin.point().tangent, chord) <= options.max_turn &&
                     !leads_aside(metric, origin.point(), end.point);
-  return near ? std::nullopt : std::optional(StepOutcome::strayed);
+  return near ? std::nullopt : std::optional(StepOutcome::left_path);
 }
 
 }  // namespace
@@ -135,14 +135,14 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   if (const auto outcome = strayed(tools.system, origin, metric, end, s, tools.options.step)) return rejected(*outcome);
 
   LandedStep landed = land_on_first_guard(tools, origin, std::move(end));
-  if (!landed.end) return rejected(StepOutcome::not_landed, landed.failure, std::move(landed.where));
+  if (!landed.end) return rejected(StepOutcome::event_not_located, landed.failure, std::move(landed.where));
   end = std::move(*landed.end);
   const auto refined = [&](Departure finer) {
-    tried.attempt.outcome = StepOutcome::refined;
+    tried.attempt.outcome = StepOutcome::contact_inserted;
     tried.result = Retry{.finer = std::move(finer)};
     return std::move(tried);
   };
-  if (tools.system.passes_through(from.state, end.point.state)) return rejected(StepOutcome::penetrates);
+  if (tools.system.passes_through(from.state, end.point.state)) return rejected(StepOutcome::penetration);
 
   // What vanishes with the guard that was landed on belongs to the change.
   const double margin = end.landing ? near_change : -penetration_tolerance;
@@ -150,7 +150,7 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
     if (auto finer = with_new_contact(tools, origin, end.point.state, margin)) return refined(std::move(*finer));
     if (!end.landing || !tools.system.admissible(end.point.state, -penetration_tolerance)) {
       std::string where = tools.system.most_inadmissible(end.point.state, -penetration_tolerance);
-      return rejected(StepOutcome::penetrates, CorrectorStatus::converged, std::move(where));
+      return rejected(StepOutcome::penetration, CorrectorStatus::converged, std::move(where));
     }
   }
   if (end.landing)
@@ -160,7 +160,7 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   // Eigenvalues that vanish behind the change have no sure sign there.
   if (end.landing && end.landing->singular) end.point.negative_eigenvalues.reset();
   if (s > tools.options.step.max && !middle_agrees(tools, origin, metric, end.point))
-    return rejected(StepOutcome::strayed);
+    return rejected(StepOutcome::left_path);
   tried.result = std::move(end);
   return tried;
 }

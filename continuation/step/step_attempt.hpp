@@ -15,15 +15,15 @@ enum class StepOutcome {
   complex_roots,
   singular,
   not_finite,
-  obstructed,      ///< a closed contact has left its wall
-  behind_end,      ///< the body has come into a wall from beyond the wall's end, where that has no face
-  strayed,         ///< the corrector ended far off the predictor
-  turned,          ///< the tangent turned more than is trusted
-  not_landed,      ///< no point of the path where contacts change
-  penetrates,      ///< the body enters a wall between the contacts
-  refined,         ///< the same, and contacts there are watched from now on: the step is tried again
-  events_unclear,  ///< an event lies inside that could not be located
-  ended,           ///< the branch ends here
+  obstructed,         ///< a closed contact has left its wall
+  behind_end,         ///< the body has come into a wall from beyond the wall's end, where that has no face
+  left_path,          ///< the corrector ended far off the predictor
+  tangent_angle,      ///< the tangent turned more than is trusted
+  event_not_located,  ///< no point of the path where contacts change
+  penetration,        ///< the body enters a wall between the contacts
+  contact_inserted,   ///< the same, and contacts there are watched from now on: the step is tried again
+  events_unclear,     ///< an event lies inside that could not be located
+  ended,              ///< the branch ends here
 };
 
 /// A row of the ledger of steps.

@@ -10,8 +10,9 @@ namespace arcwall {
 /// The last value of an enumeration.
 constexpr std::int64_t greatest(Stability) { return static_cast<std::int64_t>(Stability::undecided); }
 constexpr std::int64_t greatest(EventKind) { return static_cast<std::int64_t>(EventKind::user); }
-constexpr std::int64_t greatest(BranchType) { return static_cast<std::int64_t>(BranchType::undetermined); }
-constexpr std::int64_t greatest(EndReason) { return static_cast<std::int64_t>(EndReason::adrift); }
+constexpr std::int64_t greatest(Extremum) { return static_cast<std::int64_t>(Extremum::minimum); }
+constexpr std::int64_t greatest(BranchType) { return static_cast<std::int64_t>(BranchType::multiple); }
+constexpr std::int64_t greatest(EndReason) { return static_cast<std::int64_t>(EndReason::rigid_body_motion); }
 
 constexpr std::int64_t greatest(SlidingContactLayout::Span) {
   return static_cast<std::int64_t>(SlidingContactLayout::Span::pressed);
@@ -90,7 +91,7 @@ void parts(Archive& archive, BranchPoint::Way& way) {
 template <typename Archive>
 void parts(Archive& archive, BranchPoint& point) {
   archive(point.type, point.state, point.along, point.mode, point.modes, point.other, point.ways, point.multiplicity,
-          point.change, point.localised, point.discretisation, point.at_corner);
+          point.change, point.lambda_uncertainty, point.mesh_artefact, point.at_corner);
   const auto fits = [&](const Direction& direction) {
     return direction.dx.size() == 0 || direction.dx.size() == point.state.x.size();
   };
@@ -104,8 +105,8 @@ void parts(Archive& archive, Continuum& family) {
 
 template <typename Archive>
 void parts(Archive& archive, Event& event) {
-  archive(event.kind, event.label, event.state, event.arc, event.residual, event.localised, event.suspected,
-          event.unstable_before, event.unstable_after, event.guards, event.continuum, event.branching);
+  archive(event.kind, event.label, event.state, event.arc, event.residual, event.lambda_uncertainty, event.unconfirmed,
+          event.extremum, event.unstable_before, event.unstable_after, event.guards, event.continuum, event.branching);
 }
 
 template <typename Archive>
@@ -141,7 +142,7 @@ void parts(Archive& archive, BranchStart& start) {
 
 template <typename Archive>
 void parts(Archive& archive, BranchRecord& record) {
-  archive(record.id, record.parent, record.origin, record.depth, record.sign, record.mirrored, record.found,
+  archive(record.id, record.parent, record.origin, record.depth, record.sign, record.mirror_image, record.found,
           record.end);
 }
 

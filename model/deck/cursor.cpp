@@ -1,7 +1,6 @@
 #include "model/deck/cursor.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -11,85 +10,13 @@
 #include <utility>
 
 #include "core/text.hpp"
+#include "model/deck/synonyms.hpp"
 
 namespace arcwall::deck {
 
 namespace {
 
 constexpr std::size_t longest_name_compared = 100;  // the distance of two words costs the product of their lengths
-
-// Words of other programs and books for those of a deck.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 61> also_called{{
-    {"euler", "classic"},
-    {"bernoulli", "classic"},
-    {"euler-bernoulli", "classic"},
-    {"bernoulli-euler", "classic"},
-    {"kirchhoff", "elastica"},
-    {"timoshenko", "exact"},
-    {"reissner", "exact"},
-    {"simo-reissner", "exact"},
-    {"bar", "truss"},
-    {"rod", "truss"},
-    {"arc-length", "spherical"},
-    {"arclength", "spherical"},
-    {"crisfield", "spherical"},
-    {"rot", "rotation"},
-    {"theta", "rotation"},
-    {"phi", "rotation"},
-    {"normal-force", "axial-force"},
-    {"bending-moment", "moment"},
-    {"upper", "above"},
-    {"top", "above"},
-    {"lower", "below"},
-    {"bottom", "below"},
-    {"thermal", "temperature"},
-    {"heat", "temperature"},
-    {"dT", "temperature"},
-    {"delta_t", "temperature"},
-    {"alpha", "expansion"},
-    {"cte", "expansion"},
-    {"udl", "distributed"},
-    {"line_load", "distributed"},
-    {"winkler", "foundation"},
-    {"bedding", "foundation"},
-    {"k", "stiffness"},
-    {"velocity", "motion"},
-    {"displacement", "motion"},
-    {"ux", "x"},
-    {"uz", "z"},
-    {"dx", "x"},
-    {"dz", "z"},
-    {"local", "member"},
-    {"thermal_expansion", "expansion"},
-    {"young", "E"},
-    {"youngs_modulus", "E"},
-    {"poisson", "nu"},
-    {"angle", "rotation"},
-    {"move", "motion"},
-    {"center", "about"},
-    {"centre", "about"},
-    {"pivot", "about"},
-    {"drive", "drives"},
-    {"active", "drives"},
-    {"until", "stop"},
-    {"p", "pressure"},
-    {"follower", "pressure"},
-    {"q", "distributed"},
-    {"T", "temperature"},
-    {"temp", "temperature"},
-    {"delta_T", "temperature"},
-    {"kx", "stiffness"},
-    {"kz", "stiffness"},
-    {"spring_constant", "stiffness"},
-}};
-
-// The candidate that a word means; empty if it is nobody's word for one of them.
-std::string meant_by(const std::string& word, const std::vector<std::string>& candidates) {
-  for (const auto& [other, ours] : also_called)
-    if (word == other && std::find(candidates.begin(), candidates.end(), ours) != candidates.end())
-      return std::string(ours);
-  return {};
-}
 
 // `2,5` and `2.5` as texts: the number that is meant; empty if none is.
 std::string number_in_quotes(const Value& value) {
@@ -419,7 +346,7 @@ void Cursor::report(std::string_view key, std::string message, std::string cure)
 void Cursor::report_unknown(const Reference& found, const std::string& path, const std::string& message,
                             const std::vector<std::string>& candidates) {
   std::string near = meant_by(found.text, candidates);
-  if (near.empty() && found.text.size() <= longest_name_compared) near = nearest(found.text, candidates);
+  if (near.empty() && found.text.size() <= longest_name_compared) near = nearest_meant(found.text, candidates);
   std::string cure = candidates.empty() ? "there is none" : "known are " + listed(candidates);
   if (!near.empty()) cure = "did you mean " + near + "?";
   findings_.add(found.position, path, in_quotes(found.text, longest_name_compared) + " " + message, std::move(cure));

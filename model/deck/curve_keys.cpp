@@ -13,7 +13,8 @@ namespace {
 void event_keys(Keys& keys, EventToFollow& curve) {
   keys.word("kind", curve.event, curve_event_words,
             "`\"limit-point\"`, `\"branch-point\"`, `\"contact-closes\"`, `\"contact-spreads\"`, "
-            "`\"contact-gathers\"`, `\"contact-limit-point\"` or `\"displacement-limit\"`");
+            "`\"contact-splits\"`, `\"contact-shrinks\"`, `\"contacts-merge\"`, `\"contact-limit-point\"` or "
+            "`\"turning-point\"`");
   keys.integer(optional("number"), curve.number, {.low = 1},
                "which of that kind, counted from 1 in the order of `events.txt`");
 }
@@ -22,20 +23,20 @@ void check_range(Keys& keys, const EventToFollow& curve) {
   if (curve.range.size() != 2 || !(curve.range[0] < curve.range[1]))
     return keys.report("range", "is no interval", "give [low, high] with low less than high");
   const auto outside = [&](double value) { return value < curve.range[0] || value > curve.range[1]; };
-  const auto found = std::find_if(curve.land.begin(), curve.land.end(), outside);
-  if (found != curve.land.end())
-    keys.report("land", round_trip(*found) + " is outside range", "give values between those of range");
+  const auto found = std::find_if(curve.output_at.begin(), curve.output_at.end(), outside);
+  if (found != curve.output_at.end())
+    keys.report("output_at", round_trip(*found) + " is outside range", "give values between those of range");
 }
 
 // A curve over one number, or the worst of several.
 void check_what_varies(Keys& keys, const EventToFollow& curve) {
-  if (curve.over.empty() == curve.worst.empty())
-    return keys.report(curve.over.empty() ? "over" : "worst",
-                       curve.over.empty() ? "nothing varies: there is neither over nor worst"
-                                          : "over and worst are two different questions",
-                       "give over with range for a curve, or worst with radius for the worst combination");
-  if (!curve.over.empty()) {
-    if (!keys.has("range")) return keys.report("range", "is missing: over needs it", "add range = [low, high]");
+  if (curve.parameter.empty() == curve.worst.empty())
+    return keys.report(curve.parameter.empty() ? "parameter" : "worst",
+                       curve.parameter.empty() ? "nothing varies: there is neither parameter nor worst"
+                                               : "parameter and worst are two different questions",
+                       "give parameter with range for a curve, or worst with radius for the worst combination");
+  if (!curve.parameter.empty()) {
+    if (!keys.has("range")) return keys.report("range", "is missing: parameter needs it", "add range = [low, high]");
     return check_range(keys, curve);
   }
   if (!curve.radius)
@@ -47,17 +48,18 @@ void keys_of_curve(Keys& keys, EventToFollow& curve) {
   keys.table(
       "event", Form::in_line, [&](Keys& event) { event_keys(event, curve); },
       "the event of the traced path that is followed: `{ kind = \"limit-point\", number = 1 }`");
-  keys.text(optional("over", "none"), curve.over,
+  keys.text(optional("parameter", "none"), curve.parameter,
             "the number of the deck that varies, as in `--set`: `\"wall.upper.profile.z\"`");
   keys.numbers(optional("range", "none"), curve.range, unit::none,
-               "of `over`: `[low, high]`, with the deck's own value inside");
+               "of `parameter`: `[low, high]`, with the deck's own value inside");
   keys.number(optional("step", "1/100 of range"), curve.step, unit::none, positive,
               "increment of the number of the first predictor");
   keys.integer(optional("max_points"), curve.max_points, {.low = 1}, "on each side of the deck's own value");
-  keys.numbers(optional("land", "none"), curve.land, unit::none, "values of the number each of which is a point");
+  keys.numbers(optional("output_at", "none"), curve.output_at, unit::none,
+               "values of the number each of which is a point");
   keys.any_texts(
       optional("worst", "none"), curve.worst,
-      "instead of `over`: numbers of the deck, the combination of which is sought that lowers the event most");
+      "instead of `parameter`: numbers of the deck, the combination of which is sought that lowers the event most");
   keys.number(optional("radius", "none"), curve.radius, unit::none, positive,
               "of `worst`: root of the sum of squares of what changes the numbers");
   if (keys.reads()) check_what_varies(keys, curve);

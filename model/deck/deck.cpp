@@ -148,7 +148,8 @@ constexpr double no_clearance = 1e-12;  // of the structure's size, as where it 
 
 std::optional<LineProfile> line_without_clearance(const Deck& deck, const Wall& a, const Wall& b) {
   const auto line = line_of(a), other = line_of(b);
-  if (!line || !other || a.side == b.side || a.acts_on != ActsOn::axis || b.acts_on != ActsOn::axis)
+  if (!line || !other || a.side == b.side || a.contact_surface != ContactSurface::axis ||
+      b.contact_surface != ContactSurface::axis)
     return std::nullopt;
   const bool meet = std::abs(line->z - other->z) <= no_clearance * size_of(deck) &&
                     std::abs(line->slope - other->slope) <= no_clearance;
@@ -159,7 +160,7 @@ WallsWithoutClearance::WallsWithoutClearance(const Deck& deck) : deck_(deck), re
   for (std::size_t i = 0; i < deck.walls.size(); ++i) {
     const Wall& wall = deck.walls[i];
     const auto line = line_of(wall);
-    if (line && wall.acts_on == ActsOn::axis)
+    if (line && wall.contact_surface == ContactSurface::axis)
       (wall.side == Side::below ? below_ : above_).push_back({.z = line->z, .slope = line->slope, .wall = i});
   }
   for (auto* of_side : {&below_, &above_}) std::stable_sort(of_side->begin(), of_side->end(), is_lower);
@@ -169,7 +170,7 @@ std::vector<std::size_t> WallsWithoutClearance::beside(std::size_t wall) const {
   std::vector<std::size_t> found;
   const Wall& one = deck_.walls[wall];
   const auto line = line_of(one);
-  if (!line || one.acts_on != ActsOn::axis) return found;
+  if (!line || one.contact_surface != ContactSurface::axis) return found;
   const std::vector<Line>& others = one.side == Side::below ? above_ : below_;
   // Wider by far more than the rounding of a difference, which is what decides.
   const double wide = 2.0 * reach_ + 4.0 * std::numeric_limits<double>::epsilon() * std::abs(line->z);
@@ -224,23 +225,24 @@ PointsOfContact points_of_contact(const Deck& deck) {
   if (deck.path.method == PathMethod::incremental)
     return {.points = ContactPoints::nodes, .why = "path.method incremental has contact at nodes"};
   for (const Member& member : deck.members)
-    if (member.theory != Theory::classic && member.theory != Theory::elastica)
+    if (member.theory != Theory::euler_bernoulli && member.theory != Theory::elastica)
       return {.points = ContactPoints::nodes,
-              .why = "contact slides along members of theory classic or elastica, and member " + member.name +
-                     " is of theory " + text_of(theory_words, member.theory)};
+              .why = "contact points move along members of theory euler-bernoulli or elastica, and member " +
+                     member.name + " is of theory " + text_of(theory_words, member.theory)};
   const WallsWithoutClearance without_clearance(deck);
   for (std::size_t i = 0; i < deck.walls.size(); ++i)
     for (const std::size_t k : without_clearance.beside(i))
       if (const Wall& a = deck.walls[i], &b = deck.walls[k]; have_a_member_in_common(a, b))
         return {.points = ContactPoints::nodes,
                 .why = "walls " + a.name + " and " + b.name + " leave no clearance between them"};
-  return {.points = ContactPoints::sliding, .why = "the default where all members are of theory classic or elastica"};
+  return {.points = ContactPoints::moving,
+          .why = "the default where all members are of theory euler-bernoulli or elastica"};
 }
 
-// Load increments end at the last value of land.lambda.
+// Load increments end at the last value of output_at.lambda.
 Deck without_answers(Deck deck) {
   deck.path.sensitivity.clear();
-  deck.path.landing = false;
+  deck.path.jumps = false;
   deck.path.search = false;
   deck.path.search_at.clear();
   deck.curve.reset();

@@ -136,7 +136,7 @@ struct Member {
   Position position{};
   std::string from{};  ///< a point, another one than `to` and elsewhere
   std::string to{};
-  Theory theory = Theory::classic;
+  Theory theory = Theory::euler_bernoulli;
   std::string material{};
   std::string section{};
   int elements = 1;
@@ -296,7 +296,7 @@ enum class Component {
   force_x,
   force_z,
   gap,
-  greatest_moment,
+  max_moment,
   greatest_pressure,
   thickness,
   thickness2
@@ -332,13 +332,13 @@ struct Monitor {
 
 enum class PathMethod { load, displacement, riks, normal_plane, cylindrical, spherical, pseudo_arclength, incremental };
 
-/// Values to land on exactly.
-struct Landing {
+/// Values at which there is a point of the path.
+struct OutputValues {
   std::string name{};  ///< `lambda` or a monitor
   Position position{};
   std::vector<double> values{};  ///< at least one
 
-  bool operator==(const Landing&) const = default;
+  bool operator==(const OutputValues&) const = default;
 };
 
 /// Bounds that end a branch.
@@ -377,24 +377,24 @@ struct Given {
 struct Path {
   Position position{};
   PathMethod method = PathMethod::spherical;
-  std::vector<Landing> land{};
+  std::vector<OutputValues> output_at{};
   std::optional<Control> control{};  ///< there for displacement control
   double step = 0.02;                ///< of λ, for the first predictor; its sign is the direction; not 0
   double min_step = 1e-8;            ///< [path metric]
   double max_step = 0.2;             ///< ≥ min_step [path metric]
   int max_points = 5000;
   Given max_points_given{};
-  BranchPolicy branches = BranchPolicy::follow;
+  BranchPolicy branches = BranchPolicy::most_stable;
   int depth = 2;
   std::vector<std::string> watch{};  ///< monitors whose turning points are events
   EventSearch events = EventSearch::locate;
-  ContinuumChoice continuum = ContinuumChoice::symmetric;
-  bool landing = true;  ///< where the structure falls to behind events is looked for
-  Given landing_given{};
+  ContinuumChoice equilibrium_family = ContinuumChoice::symmetric;
+  bool jumps = true;  ///< the states to which the structure jumps after losses of stability are looked for
+  Given jumps_given{};
   std::vector<std::string> sensitivity{};  ///< keys of numbers, as in `--set`, by which events have derivatives
   bool search = false;                     ///< equilibria are looked for that no traced branch passes
   std::vector<double> search_at{};         ///< values of λ; empty: five, chosen by the events
-  int search_tries = 50;                   ///< at each of them
+  int search_guesses = 50;                 ///< at each of them
   int search_seed = 1;
   Stop stop{};
 
@@ -406,11 +406,11 @@ struct EventToFollow {
   Position position{};
   EventKind event = EventKind::limit_point;
   int number = 1;                    ///< among the events of its kind, from 1
-  std::string over{};                ///< key of the number, as in `--set`; empty: `worst` is asked for
+  std::string parameter{};           ///< key of the number, as in `--set`; empty: `worst` is asked for
   std::vector<double> range{};       ///< its least and greatest value, in this order
   std::optional<double> step{};      ///< of the number, for the first predictor
   int max_points = 500;              ///< on each side of the deck's own value
-  std::vector<double> land{};        ///< values of the number to land on
+  std::vector<double> output_at{};   ///< values of the number at which there is a point
   std::vector<std::string> worst{};  ///< keys of the numbers that are combined
   std::optional<double> radius{};    ///< the norm of their change
 
@@ -424,7 +424,7 @@ struct Stage {
   std::vector<std::string> drives{};  ///< of driven_things(), at least one
   // In place of those of [path]:
   std::optional<Stop> stop{};
-  std::vector<Landing> land{};
+  std::vector<OutputValues> output_at{};
   std::optional<double> step{}, max_step{};
   std::optional<BranchPolicy> branches{};
 
@@ -508,7 +508,7 @@ class WallsWithoutClearance {
 /// Whether nothing but the default of max_points ends the path.
 bool is_unbounded(const Path& path);
 
-/// The same deck with nothing asked about its paths: no sensitivities, no landings, no curve. For models beside a run.
+/// The same deck with nothing asked about its paths: no sensitivities, no jumps, no curve. For models beside a run.
 Deck without_answers(Deck deck);
 
 /// How messages name a `--set key=value`: on one line, cut where it gets long.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/text.hpp"
+#include "model/deck/synonyms.hpp"
 
 namespace arcwall::deck {
 
@@ -40,6 +41,12 @@ std::optional<double> number_from(const std::string& text) {
 
 bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// The word that another one is read as, or the other one itself.
+std::string current_word(const std::string& other, const std::vector<std::string>& words) {
+  std::string word = read_as(other, words);
+  return word.empty() ? other : word;
 }
 
 // The names that may stand where one of a kind is wanted, and what is said of others.
@@ -113,9 +120,10 @@ bool KeyReader::declare(const Key& key, const Target& target, const Declared& de
 bool KeyReader::word(const Key& key, const std::vector<std::string>& words, std::optional<std::string>& value) {
   Reference found;
   if (!table_.reference(key.name, key.presence, found)) return false;
-  const bool known = contains(words, found.text);
+  const std::string read = current_word(found.text, words);
+  const bool known = contains(words, read);
   if (known) {
-    value = found.text;
+    value = read;
   } else {
     table_.report_unknown(found, table_.path_of(key.name), "is not one of the words for this key", words);
   }
@@ -130,7 +138,8 @@ bool KeyReader::list(const Key& key, const Declared& declared, std::vector<std::
   std::vector<Reference> found;
   bool right = table_.references(key.name, key.presence, found);
   const std::string path = table_.path_of(key.name);
-  for (const Reference& one : found) {
+  for (Reference& one : found) {
+    if (!declared.any_text && !declared.name_of) one.text = current_word(one.text, declared.words);
     const bool known = declared.any_text || (declared.name_of ? is_one_of(one, path, *declared.name_of)
                                                               : contains(declared.words, one.text));
     if (known) values.push_back(one.text);

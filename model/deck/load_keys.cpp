@@ -79,7 +79,7 @@ void check_heat(Keys& keys, const Deck& deck, const Heat& heat) {
                 (material->expansion ? "give expansion of material." : "add expansion to material.") + material->name);
   if (member->theory == Theory::essenburg)
     keys.report("on", "member " + member->name + " is of theory essenburg, which knows no temperatures",
-                "take theory \"exact\"");
+                "take theory \"reissner\"");
   if (member->theory == Theory::truss && heat.gradient != 0.0)
     keys.report("gradient", "member " + member->name + " is a truss, which does not bend", "leave it out");
 }
@@ -110,7 +110,7 @@ void pressure_keys(Keys& keys, Pressure& load, const Deck& deck) {
   const Member* member = keys.reads() && on ? find(deck.members, load.member) : nullptr;
   if (member != nullptr && member->theory == Theory::truss)
     keys.report("on", "member " + member->name + " is a truss, which cannot carry a pressure",
-                "use theory \"classic\" or \"elastica\", or forces at its ends");
+                "use theory \"euler-bernoulli\" or \"elastica\", or forces at its ends");
 }
 
 void load_keys(Keys& keys, Load& load, const Deck& deck) {

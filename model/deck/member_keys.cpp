@@ -25,7 +25,7 @@ double distance(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x,
 
 std::string point_text(const Vector& at) { return "[" + round_trip(at.x) + ", " + round_trip(at.z) + "]"; }
 
-bool is_shear_flexible(Theory theory) { return theory == Theory::essenburg || theory == Theory::exact; }
+bool is_shear_flexible(Theory theory) { return theory == Theory::essenburg || theory == Theory::reissner; }
 
 // Of a deck with many members each would else look through all of its points.
 using PointsByName = std::unordered_map<std::string_view, const Point*>;
@@ -54,14 +54,14 @@ void order_key(Keys& keys, Member& member) {
   const std::string theory = text_of(theory_words, member.theory);
   const bool has_order = is_shear_flexible(member.theory) || member.theory == Theory::elastica;
   if (!keys.applies(has_order, "order", "theory " + theory + " has no order",
-                    "remove it, or take essenburg, exact or elastica"))
+                    "remove it, or take essenburg, reissner or elastica"))
     return;
   const int low = is_shear_flexible(member.theory) ? 1 : 4;
   const int high = is_shear_flexible(member.theory) ? 2 : 6;
   if (keys.reads()) member.order = high;
   const bool right =
       keys.integer(optional("order", "2, 6"), member.order, {},
-                   "of `\"exact\"` and `\"essenburg\"`: 1 (linear) or 2 (quadratic); of `\"elastica\"`: 4 "
+                   "of `\"reissner\"` and `\"essenburg\"`: 1 (linear) or 2 (quadratic); of `\"elastica\"`: 4 "
                    "or 6, the order of convergence");
   if (right && member.order != low && member.order != high)
     keys.report("order", std::to_string(*member.order) + " is no order of theory " + theory,
@@ -71,8 +71,9 @@ void order_key(Keys& keys, Member& member) {
 void theory_keys(Keys& keys, Member& member) {
   const bool right = keys.word(
       "theory", member.theory, theory_words,
-      "`\"classic\"`: Euler-Bernoulli beam of any displacement and rotation; `\"elastica\"`: the same beam to a "
-      "higher order; `\"truss\"`: bar with axial force only; `\"exact\"`: Reissner's beam, flexible in shear; "
+      "`\"euler-bernoulli\"`: Euler-Bernoulli beam of any displacement and rotation; `\"elastica\"`: the same beam to "
+      "a "
+      "higher order; `\"truss\"`: bar with axial force only; `\"reissner\"`: Reissner's beam, flexible in shear; "
       "`\"essenburg\"`: flexible in shear and in its thickness");
   if (keys.reads() && !right) return keys.ignore({"order", "along", "strain"});
   order_key(keys, member);

@@ -8,6 +8,7 @@
 #include "core/text.hpp"
 #include "model/deck/key_list.hpp"
 #include "model/deck/reader.hpp"
+#include "model/deck/synonyms.hpp"
 #include "model/deck/toml_source.hpp"
 #include "model/deck/value.hpp"
 #include "model/deck/writer.hpp"
@@ -33,15 +34,19 @@ struct Step {
   std::string written{};
 };
 
-Step step_into(const Value& from, const std::string& part) {
-  if (from.kind == Value::Kind::table) return {.to = find(from, part), .written = part};
+// `table`: the key of `from`.
+Step step_into(const Value& from, const std::string& table, const std::string& part) {
+  if (from.kind == Value::Kind::table) {
+    const std::string key = current_key(table, part);
+    return {.to = find(from, key), .written = key};
+  }
   if (from.kind != Value::Kind::array) return {};
   const Value* const element = element_of(from, part);
   if (element != nullptr) return {.to = element, .written = std::to_string(element - from.items.data())};
   // An array of one table may be that table.
   if (from.items.size() != 1 || from.items.front().kind != Value::Kind::table) return {};
-  const Value* const inner = find(from.items.front(), part);
-  return {.to = inner, .written = "0." + part};
+  const Step inner = step_into(from.items.front(), table + ".0", part);
+  return {.to = inner.to, .written = "0." + inner.written};
 }
 
 NoNumber no_such_part(const Value& from, const std::string& before, const std::string& part) {
@@ -69,7 +74,7 @@ std::variant<DeckPart, NoNumber> part_of(const Value& root, const std::string& k
   const Value* at = &root;
   std::string written, before;
   for (const std::string& part : split_at_dots(key)) {
-    const Step next = step_into(*at, part);
+    const Step next = step_into(*at, written, part);
     if (next.to == nullptr) return no_such_part(*at, before, part);
     at = next.to;
     written += (written.empty() ? "" : ".") + next.written;
@@ -82,7 +87,7 @@ std::string written_key(const Value& root, const std::string& key) {
   const Value* at = &root;
   std::string written;
   for (const std::string& part : split_at_dots(key)) {
-    const Step next = at == nullptr ? Step() : step_into(*at, part);
+    const Step next = at == nullptr ? Step() : step_into(*at, written, part);
     at = next.to;
     written += (written.empty() ? "" : ".") + (at == nullptr ? part : next.written);
   }

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double least_distance = 1e-9;  // between points that follow each other, of the size of the outline
 
-void keep_key(Keys& keys, Keep& keep) {
-  keys.word(optional("keep"), keep, keep_words, "the body is outside or inside");
+void structure_key(Keys& keys, Keep& keep) {
+  keys.word(optional("structure"), keep, keep_words, "the structure is outside or inside");
 }
 
 void half_plane_keys(Keys& keys, HalfPlaneOutline& plane) {
@@ -26,7 +26,7 @@ void half_plane_keys(Keys& keys, HalfPlaneOutline& plane) {
 void circle_outline_keys(Keys& keys, CircleOutline& circle) {
   keys.vector("centre", circle.centre, unit::length, "");
   keys.number("radius", circle.radius, unit::length, positive, "");
-  keep_key(keys, circle.keep);
+  structure_key(keys, circle.keep);
 }
 
 void ellipse_keys(Keys& keys, EllipseOutline& ellipse) {
@@ -35,7 +35,7 @@ void ellipse_keys(Keys& keys, EllipseOutline& ellipse) {
       !(ellipse.axes.x > 0.0 && ellipse.axes.z > 0.0))
     keys.report("axes", "half axes must be greater than 0", "give both, as [2.0, 1.0]");
   keys.number(optional("angle"), ellipse.angle, unit::none, any_number, "of the first axis from the x-axis [rad]");
-  keep_key(keys, ellipse.keep);
+  structure_key(keys, ellipse.keep);
 }
 
 double size_of(const std::vector<Vec2>& points) {
@@ -89,9 +89,9 @@ void points_keys(Keys& keys, OutlinePoints& outline) {
   const bool right = curve_keys(keys, outline.x, outline.z);
   keys.flag(optional("closed"), outline.closed, "from the last point back to the first");
   const bool is_closed = keys.lists() || outline.closed;
-  if (keys.applies(is_closed, "keep", "belongs to a closed outline: of an open one the body is to the left",
+  if (keys.applies(is_closed, "structure", "belongs to a closed outline: of an open one the body is to the left",
                    "remove it, or write closed = true"))
-    keep_key(keys, outline.keep);
+    structure_key(keys, outline.keep);
   if (!right) return;
   if (const auto fault = fault_of(outline)) keys.report("x", fault->message, fault->cure);
 }
@@ -136,7 +136,7 @@ void outline_keys(Keys& keys, Wall& wall) {
           const Option<CircleOutline> circle{"circle", "",
                                              [&](CircleOutline& round) { circle_outline_keys(of, round); }};
           const Option<PolylineOutline> polyline{
-              "polyline", "straight from point to point; the body is to the left, of a closed one by `keep`",
+              "polyline", "straight from point to point; the body is to the left, of a closed one by `structure`",
               [&](PolylineOutline& line) { points_keys(of, line); }};
           const Option<EllipseOutline> ellipse{"ellipse", "`axes`: half of each",
                                                [&](EllipseOutline& oval) { ellipse_keys(of, oval); }};

@@ -64,7 +64,7 @@ void check_stop_events(Keys& keys, const Path& path) {
     if (path.events == EventSearch::none)
       keys.report("stop", "event = " + in_quotes(name) + " never happens with events = \"none\"",
                   "leave out events, or write events = \"detect\"");
-    else if (event == EventKind::displacement_limit && path.watch.empty())
+    else if (event == EventKind::turning_point && path.watch.empty())
       keys.report("stop", "event = " + in_quotes(name) + " never happens: no monitor is watched",
                   "add watch = [\"MONITOR\"] to [path]");
   }
@@ -91,29 +91,29 @@ void step_keys(Keys& keys, Path& path) {
   if (keys.has("max_points")) path.max_points_given.in_deck = true;
 }
 
-void check_method(Keys& keys, const Path& path, bool lands_on_lambda) {
+void check_method(Keys& keys, const Path& path, bool names_lambda) {
   if (path.method == PathMethod::displacement && !keys.has("control"))
     keys.report("control", "is missing: method displacement needs it",
                 "add control = { at = \"MEMBER:0.5\", component = \"z\" }");
-  if (path.method == PathMethod::incremental && !lands_on_lambda)
-    keys.report("land", "lambda is missing: method incremental takes its increments from it",
-                "add land = { lambda = [...] }");
+  if (path.method == PathMethod::incremental && !names_lambda)
+    keys.report("output_at", "lambda is missing: method incremental takes its increments from it",
+                "add output_at = { lambda = [...] }");
 }
 
 // Whether it names lambda.
-bool land_key(Keys& keys, const Key& land_of, std::vector<Landing>& list, const char* meaning) {
-  bool lands_on_lambda = false;
+bool output_at_key(Keys& keys, const Key& output_at, std::vector<OutputValues>& list, const char* meaning) {
+  bool names_lambda = false;
   keys.table(
-      land_of, Form::dotted,
-      [&](Keys& land) {
-        lands_on_lambda = land.has("lambda");
-        land.entries(list, &Landing::name, [&](const Key& key, Landing& landing) {
-          const bool known = land.refers(key, Named::column);
-          return land.numbers(key, landing.values, unit::none, "") && known;
+      output_at, Form::dotted,
+      [&](Keys& of) {
+        names_lambda = of.has("lambda");
+        of.entries(list, &OutputValues::name, [&](const Key& key, OutputValues& output) {
+          const bool known = of.refers(key, Named::column);
+          return of.numbers(key, output.values, unit::none, "") && known;
         });
       },
       meaning);
-  return lands_on_lambda;
+  return names_lambda;
 }
 
 void search_keys(Keys& keys, Path& path) {
@@ -121,14 +121,14 @@ void search_keys(Keys& keys, Path& path) {
             "equilibria are looked for that are on no traced branch, and traced: see [answers.md](answers.md)");
   keys.numbers(optional("search_at", "five values over the range of the events"), path.search_at, unit::none,
                "values of λ at which this is done");
-  keys.integer(optional("search_tries"), path.search_tries, {.low = 1, .high = 1000000},
+  keys.integer(optional("search_guesses"), path.search_guesses, {.low = 1, .high = 1000000},
                "guesses at each of these values");
   keys.integer(optional("search_seed"), path.search_seed, {.low = 0},
                "another number makes other guesses; the same one the same, to the last bit");
 }
 
 void check_search(Keys& keys, const Path& path) {
-  for (const char* key : {"search_at", "search_tries", "search_seed"})
+  for (const char* key : {"search_at", "search_guesses", "search_seed"})
     if (!keys.has("search") && keys.has(key)) {
       keys.report(key, "is given, but nothing is looked for", "add search = true, or leave it out");
       return;
@@ -153,12 +153,12 @@ void path_keys(Keys& keys, Path& path) {
       optional("method"), path.method, path_method_words,
       "`\"load\"`, `\"displacement\"`, `\"riks\"` (fixed normal plane), `\"normal-plane\"` (updated), "
       "`\"cylindrical\"`, `\"spherical\"` (both after Crisfield), `\"pseudo-arclength\"`. `\"incremental\"`: load "
-      "increments without iteration through `land.lambda`, subdivided to at most `step`; results depend on them "
+      "increments without iteration through `output_at.lambda`, subdivided to at most `step`; results depend on them "
       "(theory.md, section 10)");
-  const bool lands_on_lambda =
-      land_key(keys, optional("land", "none"), path.land,
-               "values to land on, each of which is a point of `path.csv`: `{ lambda = [0.4], mid = "
-               "[-0.05] }`");
+  const bool names_lambda = output_at_key(
+      keys, optional("output_at", "none"), path.output_at,
+      "values of λ or of monitors at each of which there is a point of `path.csv`: `{ lambda = [0.4], mid = "
+      "[-0.05] }`");
   keys.part("control", path.control, [&](Control& control) {
     keys.table(
         optional("control", "none"), Form::dotted, [&](Keys& of) { control_keys(of, control); },
@@ -166,23 +166,23 @@ void path_keys(Keys& keys, Path& path) {
   });
   step_keys(keys, path);
   keys.word(optional("branches"), path.branches, branches_words,
-            "what is done where several ways go on: `\"primary\"`, `\"follow\"` or `\"all\"`, see below");
+            "which branch is followed from a branch point: `\"primary\"`, `\"most-stable\"` or `\"all\"`, see below");
   keys.integer(optional("depth"), path.depth, {}, "of `\"all\"`: branches of branches");
   keys.names(optional("watch", "none"), path.watch, Named::monitor, EmptyList::means_none,
-             "monitors whose turning points are events (`displacement-limit`)");
+             "monitors whose turning points are events (`turning-point`)");
   keys.word(
       optional("events"), path.events, events_words,
       "`\"locate\"`: limit points and turning points become points of the path; `\"detect\"`: reported at the end "
-      "of the step that holds them; `\"none\"`: not looked for. Changes of contact are landed on always");
+      "of the step that holds them; `\"none\"`: not looked for. Changes of contact are always points of the path");
   keys.word(
-      optional("continuum"), path.continuum, continuum_words,
-      "of contact that slides, where equilibria form a continuum, since only the sum of the lengths of several flat "
-      "parts is determined: `\"symmetric\"` goes on with the one in which neighbouring parts keep the difference of "
-      "their lengths, `\"stop\"` ends the branch with the reason `family`");
-  keys.flag(optional("landing"), path.landing,
-            "where the structure falls to at the same λ, behind each event at which it loses its stability: see "
+      optional("equilibrium_family"), path.equilibrium_family, equilibrium_family_words,
+      "of moving contact points, where equilibria form a one-parameter family, since only the sum of the lengths of "
+      "several contact zones is determined: `\"symmetric\"` continues with the one in which adjacent zones grow "
+      "equally, `\"stop\"` ends the branch with the reason `equilibrium_family`");
+  keys.flag(optional("jumps"), path.jumps,
+            "the state to which the structure jumps, at constant λ, after each loss of stability: see "
             "[answers.md](answers.md). In the cases of a sweep `false`, unless the deck says otherwise");
-  if (keys.has("landing")) path.landing_given.in_deck = true;
+  if (keys.has("jumps")) path.jumps_given.in_deck = true;
   keys.any_texts(optional("sensitivity", "none"), path.sensitivity,
                  "numbers of the deck, as in `--set`, by which each located event has a derivative: "
                  "`[\"wall.upper.profile.z\", \"material.m.E\"]`, see [answers.md](answers.md)");
@@ -190,7 +190,7 @@ void path_keys(Keys& keys, Path& path) {
   keys.table(
       optional("stop"), Form::header, [&](Keys& stop) { stop_keys(stop, path.stop); }, "");
   if (keys.reads()) check_search(keys, path);
-  check_method(keys, path, lands_on_lambda);
+  check_method(keys, path, names_lambda);
   check_stop_events(keys, path);
 }
 
@@ -212,7 +212,7 @@ void stage_keys(Keys& keys, Stage& stage, const Deck& deck) {
   keys.number(optional("step", "as in [path]"), stage.step, unit::none, not_zero, "as in [path]");
   keys.number(optional("max_step", "as in [path]"), stage.max_step, unit::none, positive, "as in [path]");
   keys.word(optional("branches", "as in [path]"), stage.branches, branches_words, "as in [path]");
-  land_key(keys, optional("land", "as in [path]"), stage.land, "as in [path]");
+  output_at_key(keys, optional("output_at", "as in [path]"), stage.output_at, "as in [path]");
   keys.part("stop", stage.stop, [&](Stop& stop) {
     keys.table(
         optional("stop", "as in [path]"), Form::dotted, [&](Keys& of) { stop_keys(of, stop); }, "as in [path]");
@@ -239,7 +239,7 @@ void check_stages(Keys& root, const Deck& deck) {
     if (deck.stages[i].branches.value_or(deck.path.branches) == BranchPolicy::all)
       root.report("stage",
                   "stage " + in_quotes(deck.stages[i].name) + " traces all branches, and the next one begins on one",
-                  "give it branches = \"follow\" or \"primary\"");
+                  "give it branches = \"most-stable\" or \"primary\"");
   }
   if (deck.path.search)
     root.report("path", "search = true belongs to a deck without stages", "leave out search or [[stage]]");
@@ -297,7 +297,7 @@ Owner owner_of(Component component) {
       return {"a wall or a spring", "write `wall` or `spring` instead, or give reaction-x or reaction-z of a place"};
     case Component::gap:
       return {"a place and a wall", "give both `at` and `wall`"};
-    case Component::greatest_moment:
+    case Component::max_moment:
       return {"a member", "write `member` instead"};
     case Component::greatest_pressure:
       return {"a foundation", "write `spring` with the name of a [[spring]] that has `on`"};
@@ -343,9 +343,8 @@ bool check_owner(Keys& keys, const Monitor& monitor) {
       return component == Component::gap || refuse("a place and a wall have a gap between them, and no " + word,
                                                    "give component = \"gap\", or leave out `wall` or `at`");
     case Monitored::member:
-      return component == Component::greatest_moment ||
-             refuse("a member as a whole has no " + word,
-                    "give greatest-moment, or write `at` with a place of the member");
+      return component == Component::max_moment ||
+             refuse("a member as a whole has no " + word, "give max-moment, or write `at` with a place of the member");
     case Monitored::spring:
       return is_force(component) || component == Component::greatest_pressure ||
              refuse("a spring has no " + word, "give force-x, force-z or moment, or greatest-pressure of a foundation");

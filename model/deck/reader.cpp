@@ -169,7 +169,7 @@ Deck read_deck(const std::string& file, const std::vector<std::string>& assignme
 }
 
 Deck read_deck_text(std::string_view text, const std::string& file_name, const std::vector<std::string>& assignments) {
-  return read_deck_value(parse_toml(text, file_name), file_name, assignments);
+  return read_deck_value(parse_deck(text, file_name), file_name, assignments);
 }
 
 Deck read_deck_value(Value root, const std::string& file_name, const std::vector<std::string>& assignments) {

@@ -18,7 +18,7 @@ Deck read_deck(const std::string& file, const std::vector<std::string>& assignme
 Deck read_deck_text(std::string_view text, const std::string& file_name,
                     const std::vector<std::string>& assignments = {});
 
-/// The same of a document that has been read: many decks that differ in their assignments are read sooner.
+/// The same of a document that parse_deck() has read: many decks that differ in their assignments are read sooner.
 Deck read_deck_value(Value root, const std::string& file_name, const std::vector<std::string>& assignments = {});
 
 }  // namespace arcwall::deck

@@ -17,8 +17,9 @@ void unit_keys(Keys& keys, Units& units) {
 
 void material_keys(Keys& keys, Material& material) {
   keys.number("E", material.E, unit::stress, positive, "Young's modulus, > 0");
-  keys.number(optional("nu", "none"), material.nu, unit::none, poisson_ratio,
-              "Poisson's ratio, in (−1, ½); needed by the theories `\"exact\"` and `\"essenburg\"`: G = E/(2(1 + ν))");
+  keys.number(
+      optional("nu", "none"), material.nu, unit::none, poisson_ratio,
+      "Poisson's ratio, in (−1, ½); needed by the theories `\"reissner\"` and `\"essenburg\"`: G = E/(2(1 + ν))");
   keys.number(optional("expansion", "none"), material.expansion, unit::none, any_number,
               "thermal expansion, strain per degree; needed where a temperature acts");
 }

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "model/deck/synonyms.hpp"
 #include "model/deck/syntax_hints.hpp"
 #include "model/deck/toml_precheck.hpp"
 
@@ -213,6 +214,12 @@ Value parse_toml(std::string_view text, const std::string& file) {
   return converted(table);
 }
 
+Value parse_deck(std::string_view text, const std::string& file) {
+  Value root = parse_toml(text, file);
+  use_current_keys(root);
+  return root;
+}
+
 std::string read_text_file(const std::string& file) {
   namespace fs = std::filesystem;
   std::error_code error;
@@ -241,8 +248,10 @@ void assign(Value& root, const std::string& assignment, int number) {
 
   const Position position{.assignment = number};
   Value* target = &root;
-  std::string path;
-  for (const std::string& key : part->key) {
+  std::string path, indexed;  // as it is given, and with indices of arrays
+  for (const std::string& given : part->key) {
+    const bool in_array = target->kind == Value::Kind::array;
+    const std::string key = in_array ? given : current_key(indexed, given);
     Value* next = child(*target, key, position);
     if (next == nullptr) {
       fail({.file = origin,
@@ -250,11 +259,13 @@ void assign(Value& root, const std::string& assignment, int number) {
             .message = shown(*target) + " has no part " + key_text(key),
             .cure = "name a key of the deck; elements of an array count from 0, or go by their name"});
     }
+    indexed += (indexed.empty() ? "" : ".") + (in_array ? std::to_string(next - target->items.data()) : key);
     target = next;
     path += (path.empty() ? "" : ".") + key_text(key);
   }
   part->value.key = target->key;
   set_positions(part->value, position);
+  use_current_keys(part->value, indexed);
   *target = std::move(part->value);
 }
 

@@ -11,6 +11,9 @@ namespace arcwall::deck {
 /// `file`.
 Value parse_toml(std::string_view text, const std::string& file);
 
+/// That of a deck, with keys in place of those that are read as them.
+Value parse_deck(std::string_view text, const std::string& file);
+
 /// The bytes of a regular file of at most 16 MB; InputError otherwise.
 std::string read_text_file(const std::string& file);
 
@@ -19,7 +22,8 @@ std::string read_text_file(const std::string& file);
 const Value* element_of(const Value& array, const std::string& part);
 
 /// Replaces or adds one value: `assignment` is `dotted.key=value`, the value as in TOML; where there is an array a part
-/// of the key is an index from 0, or the name of one of its tables. What it puts in carries `number` in its positions.
+/// of the key is an index from 0, or the name of one of its tables. Keys that are read as others are those. What it
+/// puts in carries `number` in its positions.
 void assign(Value& root, const std::string& assignment, int number);
 
 }  // namespace arcwall::deck

@@ -85,11 +85,11 @@ void check_faces(Keys& keys, const Deck& deck, const Wall& wall) {
     if (wall.members.empty() || named) members.push_back(&member);
   }
   const Member* without = member_without_faces(deck, members);
-  if (wall.acts_on == ActsOn::axis || without == nullptr) return;
+  if (wall.contact_surface == ContactSurface::axis || without == nullptr) return;
   keys.report(
-      "acts_on",
+      "contact_surface",
       "the wall acts on faces, but section " + without->section + " of member " + without->name + " has no height",
-      "give the section a height, or write acts_on = \"axis\"");
+      "give the section a height, or write contact_surface = \"axis\"");
 }
 
 void wall_keys(Keys& keys, Wall& wall, std::unordered_set<std::string>& taken, const Deck& deck) {
@@ -99,7 +99,7 @@ void wall_keys(Keys& keys, Wall& wall, std::unordered_set<std::string>& taken, c
                    "remove it"))
     keys.word("side", wall.side, side_words,
               "of a profile. `\"above\"`: the structure stays below it; `\"below\"`: the structure stays above it");
-  keys.word(optional("acts_on"), wall.acts_on, acts_on_words,
+  keys.word(optional("contact_surface"), wall.contact_surface, contact_surface_words,
             "What of a member touches the wall. `\"face\"`: the face of its section that looks at the profile in the "
             "stress-free shape, or both faces where the section stands upright; beside an outline the points that are "
             "half the section's height off the axis, towards the outline. `\"axis\"`: the centreline, which is what "
@@ -122,7 +122,8 @@ void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
             "no penetration at all; `\"penalty\"`: springs of stiffness `penalty`, which act in compression; "
             "`\"augmented\"`: no penetration, with springs beside the forces (theory.md, section 7.4)");
   keys.word(optional("points", "by theory"), contact.points, contact_points_words,
-            "`\"sliding\"`: contact is where it is, and moves along the members; `\"nodes\"`: contact is looked for at "
+            "`\"moving\"`: contact points move along the members, their positions are unknowns; `\"nodes\"`: contact "
+            "is looked for at "
             "the nodes of the mesh, as springs always are");
   // A default that depends on other keys is a comment: who reads the deck sees it, and it goes with the keys.
   if (keys.writes() && !contact.points && !deck.walls.empty()) {

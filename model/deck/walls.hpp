@@ -13,7 +13,7 @@
 /// The walls of a deck, and how contact with them is met.
 namespace arcwall::deck {
 
-enum class ActsOn { face, axis };
+enum class ContactSurface { face, axis };
 
 struct FlatProfile {
   double z = 0.0;
@@ -127,7 +127,7 @@ struct Wall {
   std::string name{};
   Position position{};
   Side side = Side::above;
-  ActsOn acts_on = ActsOn::face;
+  ContactSurface contact_surface = ContactSurface::face;
   std::vector<std::string> members{};  ///< empty: every member
   std::variant<FlatProfile, LineProfile, CircleProfile, ParabolaProfile, SplineProfile> profile{};
   std::optional<Outline> outline{};  ///< instead of side and profile
@@ -138,11 +138,11 @@ struct Wall {
   bool operator==(const Wall&) const = default;
 };
 
-enum class ContactPoints { nodes, sliding };
+enum class ContactPoints { nodes, moving };
 
 struct Contact {
   ContactLaw::Method method = ContactLaw::Method::rigid;
-  std::optional<ContactPoints> points{};  ///< empty: sliding for classic and elastica, else nodes
+  std::optional<ContactPoints> points{};  ///< empty: moving for euler-bernoulli and elastica, else nodes
   std::optional<double> penalty{};        ///< 1/μ, there for every method that needs it [force/length²]
   double gap_tolerance = 1e-10;           ///< [length]
 

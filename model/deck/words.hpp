@@ -45,9 +45,9 @@ enum class ImperfectionWord { sine };
 
 inline constexpr Words<ImperfectionWord, 1> imperfection_words{{{"sine", ImperfectionWord::sine}}};
 
-inline constexpr Words<Theory, 5> theory_words{{{"classic", Theory::classic},
+inline constexpr Words<Theory, 5> theory_words{{{"euler-bernoulli", Theory::euler_bernoulli},
                                                 {"essenburg", Theory::essenburg},
-                                                {"exact", Theory::exact},
+                                                {"reissner", Theory::reissner},
                                                 {"elastica", Theory::elastica},
                                                 {"truss", Theory::truss}}};
 inline constexpr Words<Freedom, 3> spring_direction_words{
@@ -66,12 +66,13 @@ inline constexpr Words<Freedom, 5> direction_words{{{"x", Freedom::x},
                                                     {"thickness2", Freedom::thickness2}}};
 inline constexpr Words<Side, 2> side_words{{{"above", Side::above}, {"below", Side::below}}};
 inline constexpr Words<Keep, 2> keep_words{{{"outside", Keep::outside}, {"inside", Keep::inside}}};
-inline constexpr Words<ActsOn, 2> acts_on_words{{{"face", ActsOn::face}, {"axis", ActsOn::axis}}};
+inline constexpr Words<ContactSurface, 2> contact_surface_words{
+    {{"face", ContactSurface::face}, {"axis", ContactSurface::axis}}};
 inline constexpr Words<ContactLaw::Method, 3> contact_method_words{{{"multiplier", ContactLaw::Method::rigid},
                                                                     {"penalty", ContactLaw::Method::penalty},
                                                                     {"augmented", ContactLaw::Method::augmented}}};
 inline constexpr Words<ContactPoints, 2> contact_points_words{
-    {{"nodes", ContactPoints::nodes}, {"sliding", ContactPoints::sliding}}};
+    {{"nodes", ContactPoints::nodes}, {"moving", ContactPoints::moving}}};
 inline constexpr Words<Component, 17> component_words{{{"x", Component::x},
                                                        {"z", Component::z},
                                                        {"rotation", Component::rotation},
@@ -85,7 +86,7 @@ inline constexpr Words<Component, 17> component_words{{{"x", Component::x},
                                                        {"force-x", Component::force_x},
                                                        {"force-z", Component::force_z},
                                                        {"gap", Component::gap},
-                                                       {"greatest-moment", Component::greatest_moment},
+                                                       {"max-moment", Component::max_moment},
                                                        {"greatest-pressure", Component::greatest_pressure},
                                                        {"thickness", Component::thickness},
                                                        {"thickness2", Component::thickness2}}};
@@ -100,29 +101,33 @@ inline constexpr Words<PathMethod, 8> path_method_words{{{"load", PathMethod::lo
                                                          {"pseudo-arclength", PathMethod::pseudo_arclength},
                                                          {"incremental", PathMethod::incremental}}};
 inline constexpr Words<BranchPolicy, 3> branches_words{
-    {{"primary", BranchPolicy::primary}, {"follow", BranchPolicy::follow}, {"all", BranchPolicy::all}}};
+    {{"primary", BranchPolicy::primary}, {"most-stable", BranchPolicy::most_stable}, {"all", BranchPolicy::all}}};
 inline constexpr Words<EventSearch, 3> events_words{
     {{"locate", EventSearch::locate}, {"detect", EventSearch::detect}, {"none", EventSearch::none}}};
 
-inline constexpr Words<ContinuumChoice, 2> continuum_words{
+inline constexpr Words<ContinuumChoice, 2> equilibrium_family_words{
     {{"symmetric", ContinuumChoice::symmetric}, {"stop", ContinuumChoice::stop}}};
 
-inline constexpr Words<EventKind, 9> stop_event_words{{{"contact-closes", EventKind::contact_closes},
-                                                       {"contact-opens", EventKind::contact_opens},
-                                                       {"contact-spreads", EventKind::contact_spreads},
-                                                       {"contact-gathers", EventKind::contact_gathers},
-                                                       {"contact-passes", EventKind::contact_passes},
-                                                       {"limit-point", EventKind::limit_point},
-                                                       {"contact-limit-point", EventKind::contact_limit_point},
-                                                       {"displacement-limit", EventKind::displacement_limit},
-                                                       {"branch-point", EventKind::branch_point}}};
+inline constexpr Words<EventKind, 11> stop_event_words{{{"contact-closes", EventKind::contact_closes},
+                                                        {"contact-opens", EventKind::contact_opens},
+                                                        {"contact-spreads", EventKind::contact_spreads},
+                                                        {"contact-splits", EventKind::contact_splits},
+                                                        {"contact-shrinks", EventKind::contact_shrinks},
+                                                        {"contacts-merge", EventKind::contacts_merge},
+                                                        {"contact-transfers", EventKind::contact_transfers},
+                                                        {"limit-point", EventKind::limit_point},
+                                                        {"contact-limit-point", EventKind::contact_limit_point},
+                                                        {"turning-point", EventKind::turning_point},
+                                                        {"branch-point", EventKind::branch_point}}};
 
-inline constexpr Words<EventKind, 7> curve_event_words{{{"limit-point", EventKind::limit_point},
+inline constexpr Words<EventKind, 9> curve_event_words{{{"limit-point", EventKind::limit_point},
                                                         {"branch-point", EventKind::branch_point},
                                                         {"contact-closes", EventKind::contact_closes},
                                                         {"contact-spreads", EventKind::contact_spreads},
-                                                        {"contact-gathers", EventKind::contact_gathers},
+                                                        {"contact-splits", EventKind::contact_splits},
+                                                        {"contact-shrinks", EventKind::contact_shrinks},
+                                                        {"contacts-merge", EventKind::contacts_merge},
                                                         {"contact-limit-point", EventKind::contact_limit_point},
-                                                        {"displacement-limit", EventKind::displacement_limit}}};
+                                                        {"turning-point", EventKind::turning_point}}};
 
 }  // namespace arcwall::deck

@@ -11,11 +11,12 @@ in a thread of its own.
 """
 
 from ._engine import version as __version__
+from .branch_map import BranchMap, BranchMapEdge, BranchMapRange, BranchMapSegment
 from .curves import Curve
 from .deck import Deck
 from .errors import ArcwallError, DeckError, Diagnostic, FileError, NoAnswer, NoStart, NotFinite
 from .event_curves import CurveSpecial, EventCurve, WorstCombination
-from .events import Branch, Contact, Continuum, End, Event, Events, Found, Landing, LandingContact, Point, Search, WayBack
+from .events import Branch, Contact, Continuum, End, Event, Events, Found, Jump, JumpContact, Point, Return, Search
 from .path import Path, State, Tracing, load
 from .shapes import ContactMark, MemberShape, Shape, WallShape
 from .studies import ConvergedEvent, Convergence
@@ -24,6 +25,10 @@ from .systems import Detector, System, SystemPath, trace
 __all__ = [
     "ArcwallError",
     "Branch",
+    "BranchMap",
+    "BranchMapEdge",
+    "BranchMapRange",
+    "BranchMapSegment",
     "Contact",
     "ContactMark",
     "Continuum",
@@ -41,14 +46,15 @@ __all__ = [
     "Events",
     "FileError",
     "Found",
-    "Landing",
-    "LandingContact",
+    "Jump",
+    "JumpContact",
     "MemberShape",
     "NoAnswer",
     "NoStart",
     "NotFinite",
     "Path",
     "Point",
+    "Return",
     "Search",
     "Shape",
     "State",
@@ -56,7 +62,6 @@ __all__ = [
     "SystemPath",
     "Tracing",
     "WallShape",
-    "WayBack",
     "WorstCombination",
     "__version__",
     "load",

@@ -149,16 +149,16 @@ class Deck:
         """What one should know of a right deck though it is no error: one sentence each."""
         return _engine.check(self._text, self._name, self._assignments)[1]
 
-    def tracing(self, *, sensitivity: Iterable[str] | None = None, landing: bool | None = None) -> Tracing:
+    def tracing(self, *, sensitivity: Iterable[str] | None = None, jumps: bool | None = None) -> Tracing:
         """Traces while it is iterated, a point at a time: ``for point in deck.tracing(): …``.
 
         One may stop at any time and go on later; ``tracing.path`` has what was traced so far. DeckError for a wrong deck.
-        ``sensitivity``: numbers of the deck by which each event's λ is derived; ``landing``: whether it is found where the
+        ``sensitivity``: numbers of the deck by which each event's λ is derived; ``jumps``: whether it is found where the
         structure falls to, when every branch has ended. Both stand in place of what the deck says (docs/answers.md).
         """
         from .path import Path, Tracing
 
-        wanted = {"path.sensitivity": _list_of_keys(sensitivity), "path.landing": landing}
+        wanted = {"path.sensitivity": _list_of_keys(sensitivity), "path.jumps": jumps}
         deck = self.copy({key: value for key, value in wanted.items() if value is not None})
         return Tracing(Path(_engine.Run(deck._name, deck._text, deck._assignments)))
 
@@ -168,15 +168,15 @@ class Deck:
         max_points: int | None = None,
         max_seconds: float | None = None,
         sensitivity: Iterable[str] | None = None,
-        landing: bool | None = None,
+        jumps: bool | None = None,
     ) -> Path:
         """Traces all paths of the deck, as ``trace-path run`` does, to the same last bit.
 
         ``max_points`` and ``max_seconds`` end this call; ``path.resume()`` goes on. DeckError for a wrong deck, NoStart where
-        there is no equilibrium to begin with. ``sensitivity`` and ``landing`` are as of ``tracing()``. Ctrl-C raises
+        there is no equilibrium to begin with. ``sensitivity`` and ``jumps`` are as of ``tracing()``. Ctrl-C raises
         KeyboardInterrupt at the next point; what was traced by then is kept only by ``tracing()``.
         """
-        path = self.tracing(sensitivity=sensitivity, landing=landing).path
+        path = self.tracing(sensitivity=sensitivity, jumps=jumps).path
         path.resume(max_points=max_points, max_seconds=max_seconds)
         return path
 
@@ -195,29 +195,29 @@ class Deck:
     def curve(
         self,
         event: str | None = None,
-        over: str | None = None,
+        parameter: str | None = None,
         range: Sequence[float] | None = None,
         *,
         number: int | None = None,
         step: float | None = None,
         max_points: int | None = None,
-        land: Sequence[float] | None = None,
+        output_at: Sequence[float] | None = None,
     ) -> EventCurve:
         """Follows an event while a number of the deck varies, as ``trace-path curve`` does (docs/answers.md): exactly, to both
         sides of the deck's own value and through its turning points.
 
         event, number   kind of the event, as ``limit-point``, and which of that kind along the path, from 1
-        over, range     the number by its key, and (least, greatest) value, the deck's own inside
+        parameter, range  the number by its key, and (least, greatest) value, the deck's own inside
         step            increment of the number of the first predictor; by default 1/100 of the range
         max_points      on each side of the deck's own value
-        land            values of the number each of which is a point
+        output_at       values of the number each of which is a point
 
         What is left out is taken from the deck's table ``[curve]``, if it has one. DeckError for a wrong deck or question,
         NoAnswer where the event is not on the path or cannot be followed.
         """
         from .event_curves import EventCurve
 
-        wanted = {"over": over, "range": range, "step": step, "max_points": max_points, "land": land}
+        wanted = {"parameter": parameter, "range": range, "step": step, "max_points": max_points, "output_at": output_at}
         deck = self._asking(event, number, wanted, {"worst", "radius"})
         return EventCurve(deck, *_engine.event_curve(deck._name, deck._text, deck._assignments))
 
@@ -238,7 +238,7 @@ class Deck:
         from .event_curves import worst_of
 
         wanted = {"worst": _list_of_keys(keys), "radius": radius}
-        deck = self._asking(event, number, wanted, {"over", "range", "step", "max_points", "land"})
+        deck = self._asking(event, number, wanted, {"parameter", "range", "step", "max_points", "output_at"})
         return worst_of(deck, *_engine.worst(deck._name, deck._text, deck._assignments))
 
     # The deck with what is wanted in place of that in its table [curve], without what belongs to another question.
@@ -248,15 +248,15 @@ class Deck:
             return self
         own = self.to_dict().get("curve", {})
         kept = {key: value for key, value in own.items() if key not in others} if isinstance(own, dict) else {}
-        if given.get("over", kept.get("over")) != kept.get("over"):  # these are of the other number
-            kept = {key: value for key, value in kept.items() if key not in ("range", "step", "land")}
+        if given.get("parameter", kept.get("parameter")) != kept.get("parameter"):  # these are of the other number
+            kept = {key: value for key, value in kept.items() if key not in ("range", "step", "output_at")}
         if event is not None:
             kept["event"] = {"kind": event}
         if number is not None:
             kept["event"] = {**kept.get("event", {}), "number": number}
         table = {**kept, **given}
-        if "land" in given and not len(given["land"]):  # no values at all
-            del table["land"]
+        if "output_at" in given and not len(given["output_at"]):  # no values at all
+            del table["output_at"]
         return self.copy({"curve": table})
 
 

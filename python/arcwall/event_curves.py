@@ -50,7 +50,7 @@ class EventCurve:
         self.deck = deck  #: with the question that this answers as its table ``[curve]``
         self.event: str = json["event"]["kind"]  #: kind of the event that is followed
         self.number: int = json["event"]["number"]  #: which of that kind along the path, from 1
-        self.over: str = json["over"]  #: the number that varies, by its key
+        self.parameter: str = json["parameter"]  #: the number that varies, by its key
         self.unit: str = json["unit"]  #: of that number; empty where it has none
         self.value: float = json["value"]  #: the deck's own
         self.specials = tuple(
@@ -120,7 +120,7 @@ class EventCurve:
 
     def deck_at(self, point: int) -> Deck:
         """The deck with the number's value at a point: ``curve.deck_at(i).trace()`` has the event at the same λ."""
-        return self.deck.copy({self.over: float(self["key"][row_of(point, len(self))])})
+        return self.deck.copy({self.parameter: float(self["key"][row_of(point, len(self))])})
 
     def shape(self, point: int) -> Shape:
         """The structure at a point of the curve, at the event."""
@@ -155,7 +155,7 @@ class EventCurve:
         return self._text
 
     def __repr__(self) -> str:
-        what = f"{self.event} {self.number} over {self.over}"
+        what = f"{self.event} {self.number} over {self.parameter}"
         return f"<arcwall.EventCurve of {what}, {len(self)} points, {len(self.cusps)} cusps, {len(self.crossings)} crossings>"
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 __all__ = [
-    "Branch", "Contact", "Continuum", "End", "Event", "Events", "Found", "Landing", "LandingContact", "Point", "Search", "WayBack",
+    "Branch", "Contact", "Continuum", "End", "Event", "Events", "Found", "Jump", "JumpContact", "Point", "Search", "Return",
 ]  # fmt: skip
 
 
@@ -51,54 +51,54 @@ class End(Value):
 
 
 @dataclass(frozen=True, repr=False)
-class LandingContact(Value):
-    """A contact of a landing, or a stretch of contact."""
+class JumpContact(Value):
+    """A contact point or a contact zone of a state that a structure jumps to."""
 
     wall: str
     member: str
     fraction: float  #: of the member's length, where it begins; nan where it is unknown
-    kind: str  #: ``point`` or ``line``
+    kind: str  #: ``point`` or ``zone``
     force: float  #: in sum [force]
 
 
 @dataclass(frozen=True, repr=False)
-class Landing(Value):
-    """Where a structure falls to behind an event at which it loses its stability, λ being held.
+class Jump(Value):
+    """The jump of a structure at constant λ from an event at which it loses its stability.
 
     ``reason`` says why that was not found, and then all but ``lam`` and ``why`` is None or empty.
     """
 
     lam: float  #: λ, that of the event
-    reason: str | None = None  #: None, ``falls_away``, ``not_found`` or ``several``
+    reason: str | None = None  #: None, ``no_equilibrium``, ``not_found`` or ``two_destinations``
     why: str | None = None  #: the reason in words
     monitors: Mapping[str, float] = field(default_factory=dict)
-    contacts: tuple[LandingContact, ...] = ()  #: along the members
-    word: str = ""  #: the walls of these, as ``upper lower upper``; ``upper=`` of a stretch
+    contacts: tuple[JumpContact, ...] = ()  #: along the members
+    contact_pattern: str = ""  #: the walls of these, as ``upper lower upper``; ``upper=`` of a stretch
     energy: float | None = None  #: total potential there [force·length]
-    released: float | None = None  #: energy before less energy behind [force·length]
+    energy_released: float | None = None  #: energy before less energy behind [force·length]
     unstable: int | None = None  #: as of points
     on_branch: int | None = None  #: the branch that passes through the state, if one does
     arc: float | None = None  #: along it [path metric]
-    back: WayBack | None = None  #: λ taken back from there; None: no loss of stability is known
-    loop: float | None = None  #: energy lost in the hysteresis loop, if that closes [force·length]
-    several: tuple[Landing, ...] = ()  #: of ``several``: in one sense of the critical mode and in the other
+    return_: Return | None = None  #: the jump back as λ goes back; None: no loss of stability is known
+    energy_dissipated: float | None = None  #: in the hysteresis loop, if that closes [force·length]
+    two_destinations: tuple[Jump, ...] = ()  #: of this reason: in one sense of the critical mode and in the other
 
 
 @dataclass(frozen=True, repr=False)
-class WayBack(Value):
-    """Where the state that was fallen to loses its stability as λ goes back."""
+class Return(Value):
+    """Where the state after a jump loses its stability as λ goes back."""
 
     lam: float
     kind: str  #: of the event
     monitors: Mapping[str, float]
-    landing: Landing | None = None  #: where it falls to from there
+    jump: Jump | None = None  #: the jump from there
 
 
 @dataclass(frozen=True, repr=False)
 class Found(Value):
     """An equilibrium that no traced branch passed when it was found."""
 
-    word: str  #: its contacts, as of a landing
+    contact_pattern: str  #: as of a jump
     monitors: Mapping[str, float]
     energy: float  #: total potential [force·length]
     unstable: int | None  #: as of points
@@ -112,8 +112,8 @@ class Search(Value):
 
     lam: float
     known: int  #: equilibria of traced branches
-    tries: int
-    outcomes: Mapping[str, int]  #: how many tries ended how: ``found``, ``mirror_image``, ``known``, ``nodes_only``, ``not_found``
+    guesses: int
+    outcomes: Mapping[str, int]  #: how many guesses ended how: ``found``, ``mirror_image``, ``known``, ``nodes_only``, ``not_found``
     found: tuple[Found, ...]
 
 
@@ -132,25 +132,26 @@ class Event(Value):
     unstable_before: int | None
     unstable_after: int | None
     residual: float  #: relative
-    localised: float  #: half-width in λ of what is left uncertain
+    lambda_uncertainty: float  #: half-width in λ of what is left uncertain
     contacts: tuple[Contact, ...] = ()  #: that change
     #: dλ/dn by numbers of the deck that were asked for; None where there is none, see ``no_sensitivity``
     sensitivity: Mapping[str, float | None] = field(default_factory=dict)
     no_sensitivity: Mapping[str, str] = field(default_factory=dict)  #: why
+    extremum: str | None = None  #: of λ at a limit point: ``maximum`` or ``minimum``
     monitor: str | None = None  #: which one turns; the label of an event function
-    type: str | None = None  #: of a branch point: ``symmetric``, ``asymmetric``, ``one-sided``, ``undetermined``
+    type: str | None = None  #: of a branch point: ``pitchfork``, ``transcritical``, ``one-sided``, ``multiple``
     multiplicity: int | None = None  #: of a branch point: critical modes
-    suspected: bool = False  #: zero is touched without a change of sign, as nearly as can be told
-    discretisation: bool = False  #: a branch point that only contact at nodes makes
+    unconfirmed: bool = False  #: zero is touched without a change of sign, as nearly as can be told
+    mesh_artefact: bool = False  #: a branch point that only contact at nodes makes
     branches: tuple[int, ...] = ()  #: that leave a branch point
     #: of a branch point: rates of the monitors along the critical mode; of a system of one's own the mode itself
     mode: Any = None
     end: End | None = None  #: of an end
     family: Continuum | None = None  #: of a change of contact: the branch keeps to one of these from here on
-    #: where the structure falls to; None where it does not, and where ``path.landing`` is not asked for
-    landing: Landing | None = None
+    #: the jump; None where there is none, and where ``path.jumps`` is not asked for
+    jump: Jump | None = None
     stage: str | None = None
-    unstable_dead: int | None = None
+    unstable_load_control: int | None = None
 
 
 @dataclass(frozen=True, repr=False)
@@ -160,12 +161,12 @@ class Branch(Value):
     id: int
     parent: int | None  #: the branch it leaves
     origin: int | None  #: the event at which it does
-    mirrored: bool  #: its mirror image leaves there too and is not traced
+    mirror_image: bool  #: its mirror image leaves there too and is not traced
     points: int
     lam: tuple[float, float]  #: least and greatest λ of its points
     end: End | None  #: None while it goes on
     stage: str | None = None
-    found: bool = False  #: it leaves no branch: ``path.search`` has found where it begins
+    disconnected: bool = False  #: it leaves no branch: ``path.search`` has found where it begins
 
 
 @dataclass(frozen=True, repr=False)
@@ -186,7 +187,7 @@ class Point(Value):
     residual: float
     event: str | None
     stage: str | None = None
-    unstable_dead: int | None = None
+    unstable_load_control: int | None = None
 
 
 class Events(Sequence[Event]):
@@ -251,11 +252,13 @@ KINDS = (
     "contact-closes",
     "contact-opens",
     "contact-spreads",
-    "contact-gathers",
-    "contact-passes",
+    "contact-splits",
+    "contact-shrinks",
+    "contacts-merge",
+    "contact-transfers",
     "limit-point",
     "contact-limit-point",
-    "displacement-limit",
+    "turning-point",
     "branch-point",
     "user",
 )
@@ -278,34 +281,34 @@ def _family_of(json: Mapping[str, Any]) -> Continuum | None:
     return of and Continuum(of["parts"], _float(of["energy"]), _float(of["length"]))
 
 
-def _landing_of(json: Mapping[str, Any] | None) -> Landing | None:
+def _jump_of(json: Mapping[str, Any] | None) -> Jump | None:
     if json is None:
         return None
     if "reason" in json:
-        each = (_landing_of(one) for one in json.get("several", ()))
-        return Landing(_float(json["lambda"]), json["reason"], json["why"], several=tuple(one for one in each if one))
-    return Landing(
+        each = (_jump_of(one) for one in json.get("two_destinations", ()))
+        return Jump(_float(json["lambda"]), json["reason"], json["why"], two_destinations=tuple(one for one in each if one))
+    return Jump(
         lam=_float(json["lambda"]),
         monitors=_floats(json["monitors"]),
         contacts=tuple(
-            LandingContact(c["wall"], c["member"], _float(c["fraction"]), c["kind"], _float(c["force"]))
+            JumpContact(c["wall"], c["member"], _float(c["fraction"]), c["kind"], _float(c["force"]))
             for c in json["contacts"]
         ),
-        word=json["word"],
+        contact_pattern=json["contact_pattern"],
         energy=_float(json["energy"]),
-        released=_float(json["released"]),
+        energy_released=_float(json["energy_released"]),
         unstable=json["unstable"],
         on_branch=json.get("on_branch"),
         arc=json.get("arc"),
-        back=_way_back_of(json.get("back")),
-        loop=json.get("loop"),
+        return_=_return_of(json.get("return")),
+        energy_dissipated=json.get("energy_dissipated"),
     )
 
 
-def _way_back_of(json: Mapping[str, Any] | None) -> WayBack | None:
+def _return_of(json: Mapping[str, Any] | None) -> Return | None:
     if json is None:
         return None
-    return WayBack(_float(json["lambda"]), json["kind"], _floats(json["monitors"]), _landing_of(json.get("landing")))
+    return Return(_float(json["lambda"]), json["kind"], _floats(json["monitors"]), _jump_of(json.get("jump")))
 
 
 def searches_of(json: Mapping[str, Any] | None) -> tuple[Search, ...]:
@@ -314,10 +317,10 @@ def searches_of(json: Mapping[str, Any] | None) -> tuple[Search, ...]:
         Search(
             lam=_float(at["lambda"]),
             known=at["known"],
-            tries=at["tries"],
+            guesses=at["guesses"],
             outcomes=at["outcomes"],
             found=tuple(
-                Found(f["word"], _floats(f["monitors"]), _float(f["energy"]), f["unstable"], f["became"], tuple(f["branches"]))
+                Found(f["contact_pattern"], _floats(f["monitors"]), _float(f["energy"]), f["unstable"], f["became"], tuple(f["branches"]))
                 for f in at["found"]
             ),
         )
@@ -339,22 +342,23 @@ def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None
         unstable_before=json["unstable_before"],
         unstable_after=json["unstable_after"],
         residual=_float(json["residual"]),
-        localised=_float(json["localised"]),
+        lambda_uncertainty=_float(json["lambda_uncertainty"]),
         contacts=tuple(Contact(c["wall"], c["member"], _float(c["fraction"]), _float(c["x"])) for c in json.get("contact", ())),
         sensitivity=json.get("sensitivity", {}),
         no_sensitivity=json.get("no_sensitivity", {}),
+        extremum=json.get("extremum"),
         monitor=json.get("monitor"),
         type=json.get("type"),
         multiplicity=json.get("multiplicity"),
-        suspected=json.get("suspected", False),
-        discretisation=json.get("discretisation", False),
+        unconfirmed=json.get("unconfirmed", False),
+        mesh_artefact=json.get("mesh_artefact", False),
         branches=tuple(json.get("branches", ())),
         mode=json.get("mode") if mode is None else mode,
         end=end_of(json) if "reason" in json else None,
         family=_family_of(json),
-        landing=_landing_of(json.get("landing")),
+        jump=_jump_of(json.get("jump")),
         stage=json.get("stage"),
-        unstable_dead=json.get("unstable_dead"),
+        unstable_load_control=json.get("unstable_load_control"),
     )
 
 
@@ -362,13 +366,13 @@ def branch_of(json: Mapping[str, Any]) -> Branch:
     return Branch(
         id=json["id"],
         parent=json["parent"],
-        origin=None if json["origin"] == "found" else json["origin"],
-        mirrored=json["mirrored"],
+        origin=None if json["origin"] == "search" else json["origin"],
+        mirror_image=json["mirror_image"],
         points=json["points"],
         lam=(_float(json["lambda"][0]), _float(json["lambda"][1])),
         end=end_of(json["end"]),
         stage=json.get("stage"),
-        found=json["origin"] == "found",
+        disconnected=json["origin"] == "search",
     )
 
 
@@ -388,5 +392,5 @@ def point_of(json: Mapping[str, Any], index: int) -> Point:
         residual=json["residual"],
         event=json["event"],
         stage=json.get("stage"),
-        unstable_dead=json.get("unstable_dead"),
+        unstable_load_control=json.get("unstable_load_control"),
     )

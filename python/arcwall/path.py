@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _engine
+from .branch_map import BranchMap, branch_map_of
 from .curves import Curve, row_of
 from .deck import Deck
 from .events import Point, Search, point_of, searches_of
@@ -75,6 +76,12 @@ class Path(Curve):
     def search(self) -> tuple[Search, ...]:
         """What was looked for beside the traced branches and found, at one λ after the other; empty without ``path.search``."""
         return searches_of(self._run.search())
+
+    @property
+    def branch_map(self) -> BranchMap:
+        """The branch map: the states over λ, and what leads from one to another, as in ``branches.json``. Empty for load
+        increments and for decks with stages."""
+        return branch_map_of(self._run.branch_map())
 
     @property
     def units(self) -> dict[str, str]:

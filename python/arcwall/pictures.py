@@ -22,11 +22,13 @@ MARKS = {
     "contact-closes": ("v", 6, True),
     "contact-opens": ("^", 6, False),
     "contact-spreads": ("d", 6, True),
-    "contact-gathers": ("d", 6, False),
-    "contact-passes": ("D", 5, False),
+    "contact-splits": ("P", 6, True),
+    "contact-shrinks": ("d", 6, False),
+    "contacts-merge": ("P", 6, False),
+    "contact-transfers": ("D", 5, False),
     "limit-point": ("o", 6, True),
     "contact-limit-point": ("h", 10, False),
-    "displacement-limit": ("s", 6, True),
+    "turning-point": ("s", 6, True),
     "branch-point": ("*", 10, True),
     "user": ("p", 7, True),
 }
@@ -102,8 +104,8 @@ def plot_event_curve(curve: EventCurve, x: str, y: str, ax: Any) -> Any:
             first = last
     for special in curve.specials:
         _draw_mark(ax, across[special.point], up[special.point], _SPECIAL_MARKS[special.kind])
-    ax.set_xlabel(_with_unit(curve.over if x == "key" else _shown(x), curve.units[x]))
-    ax.set_ylabel(_with_unit(curve.over if y == "key" else _shown(y), curve.units[y]))
+    ax.set_xlabel(_with_unit(curve.parameter if x == "key" else _shown(x), curve.units[x]))
+    ax.set_ylabel(_with_unit(curve.parameter if y == "key" else _shown(y), curve.units[y]))
     ax.set_title(f"{curve.event} {curve.number}")
     ax.grid(True, color="#e8eaed")
     return ax

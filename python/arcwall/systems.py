@@ -96,7 +96,7 @@ def trace(
     step: float = 0.02,
     stop: Mapping[Any, tuple[float, float]] | None = None,
     stop_at: Iterable[str] = (),
-    land: Mapping[Any, Iterable[float]] | None = None,
+    output_at: Mapping[Any, Iterable[float]] | None = None,
     events: Mapping[str, Callable[[np.ndarray, float], float] | Detector] | None = None,
     watch: Iterable[int] = (),
     monitors: Mapping[str, Callable[[np.ndarray, float], float]] | None = None,
@@ -114,7 +114,7 @@ def trace(
     step            increment of λ of the first predictor; its sign is the direction
     stop            bounds that end a branch: ``{"lambda": (-1, 4), 3: (0, 0.5)}``, a whole number being an unknown
     stop_at         kinds of events of which the first ends a branch
-    land            values to land on and go on, by the same keys
+    output_at       values at each of which there is a point, by the same keys
     events          event functions by their labels: each is a function of (x, λ), or a Detector; their events are of kind
                     ``user`` and have the label as ``monitor``
     watch           unknowns whose turning points are events
@@ -140,9 +140,9 @@ def trace(
     wishes = _engine.Wishes()
     wishes.step, wishes.least_step, wishes.greatest_step = _steps(step, least_step, greatest_step)
     wishes.max_points, wishes.depth = _at_least(1, "max_points", max_points), _at_least(0, "depth", depth)
-    wishes.branches = _one_of("branches", branches, ("primary", "follow", "all"))
+    wishes.branches = _one_of("branches", branches, ("primary", "most-stable", "all"))
     wishes.method = _one_of("method", method, ("spherical", "load"))
-    wishes.targets = [*_targets("stop", stop, x.size), *_targets("land", land, x.size)]
+    wishes.targets = [*_targets("stop", stop, x.size), *_targets("output_at", output_at, x.size)]
     wishes.stop_events = [_one_of("stop_at", kind, KINDS) for kind in ([stop_at] if isinstance(stop_at, str) else stop_at)]
     wishes.detectors = [_detector(label, of) for label, of in _mapping("events", events).items()]
     wishes.watch = [_unknown(index, x.size) for index in ([watch] if isinstance(watch, int) else watch)]
@@ -207,7 +207,7 @@ def _unknown(index: Any, size: int) -> int:
     return index.__index__() % size
 
 
-# Bounds of `stop`, or values of `land`.
+# Bounds of `stop`, or values of `output_at`.
 def _targets(option: str, wanted: Mapping[Any, Any] | None, size: int) -> list[tuple[int | None, float, bool, str]]:
     stops = option == "stop"
     targets = []

@@ -45,14 +45,14 @@ enum class Question { curve, worst };
 // The deck has a table [curve] that asks this.
 void require(const deck::Deck& deck, Question question) {
   const bool curve = question == Question::curve;
-  const std::string key = curve ? "over" : "worst";
+  const std::string key = curve ? "parameter" : "worst";
   const auto refuse = [&](const std::string& message, const std::string& cure) {
     throw InputError({{.file = deck.source.file, .key = "curve", .message = message, .cure = cure}});
   };
   if (!deck.curve)
     refuse("the deck does not say which event is followed",
            curve ? "give the event, the number that varies and its range" : "give the event, the numbers and a radius");
-  if (deck.curve->over.empty() == curve)
+  if (deck.curve->parameter.empty() == curve)
     refuse("the deck asks something else, there is no key " + key,
            curve ? "worst() gives the worst combination" : "curve() follows the event");
 }

@@ -42,7 +42,8 @@ py::object column(const Record& record, const std::string& name) {
   if (name == "energy") return numbers<double>(record, [](P at) { return at.energy; });
   if (name == "iterations") return numbers<Integer>(record, [](P at) { return at.iterations; });
   if (name == "residual") return numbers<double>(record, [](P at) { return at.residual; });
-  if (name == "unstable_dead") return numbers<double>(record, [](P at) { return or_nan(at.unstable_dead); });
+  if (name == "unstable_load_control")
+    return numbers<double>(record, [](P at) { return or_nan(at.unstable_load_control); });
   if (name == "stability") return words(record, [](P at) { return py::str(std::string(to_text(at.count.stability))); });
   if (name == "stage") return words(record, [&](P at) { return py::str(record.stage_of(at.branch)); });
   if (name == "event")
@@ -68,7 +69,7 @@ py::list lines(const Record& record) {
 std::vector<std::string> column_names(const Record& record) {
   std::vector<std::string> names{"branch",    "step",     "arc",    "lambda",     "unstable",
                                  "stability", "contacts", "energy", "iterations", "event"};
-  if (record.moves_supports) names.emplace_back("unstable_dead");
+  if (record.moves_supports) names.emplace_back("unstable_load_control");
   if (!record.stages.empty()) names.emplace_back("stage");
   return names;
 }

@@ -38,7 +38,7 @@ py::object python_value(const deck::Value& value) {
 }
 
 deck::Value document(const std::string& text, const std::string& file, const Assignments& assignments) {
-  deck::Value root = deck::parse_toml(text, file);
+  deck::Value root = deck::parse_deck(text, file);
   int number = 0;
   for (const std::string& assignment : assignments) deck::assign(root, assignment, ++number);
   return root;

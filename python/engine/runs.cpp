@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/cli/trace_and_write.hpp"
+#include "apps/output/branch_map_page.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/load_text.hpp"
 #include "apps/output/report_html.hpp"
@@ -169,6 +170,11 @@ void bind_runs(py::module_& module) {
       .def("checkpoint", &Run::checkpoint)
       .def("warnings", [](const Run& self) { return self.session().model().warnings(); })
       .def("search", [](const Run& self) { return to_python(search_json(self.record())); })
+      .def("branch_map",
+           [](const Run& self) {
+             const Session& session = self.session();
+             return to_python(branch_map_json(session.record(), branch_map_of(session.model(), session.record())));
+           })
       .def("description",
            [](const Run& self) {
              const RunDescription& of = self.session().description();

@@ -85,7 +85,7 @@ TraceOptions trace_options(const Wishes& wishes) {
 ExploreOptions explore_options(const Wishes& wishes) {
   ExploreOptions options;
   options.depth = wishes.depth;
-  if (wishes.branches == "follow") options.policy = BranchPolicy::follow;
+  if (wishes.branches == "most-stable") options.policy = BranchPolicy::most_stable;
   if (wishes.branches == "all") options.policy = BranchPolicy::all;
   return options;
 }

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 const std::string truss = test::truss_on_spring + R"toml([curve]
 event = { kind = "limit-point" }
-over = "spring.0.stiffness.z"
+parameter = "spring.0.stiffness.z"
 range = [0.5, 12.0]
 )toml";
 
@@ -31,14 +31,14 @@ range = [0.5, 12.0]
 std::string channel(const std::string& kind, const std::string& over = "wall.upper.profile.z",
                     const std::string& range = "[0.19, 0.215]", int elements = 12) {
   return test::pressed_column_in_channel(elements,
-                                         "landing = false, stop = { lambda = [-1.0, 10.0], event = \"limit-point\" }") +
-         fmt::format("[curve]\nevent = {{ kind = \"{}\" }}\nover = \"{}\"\nrange = {}\n", kind, over, range);
+                                         "jumps = false, stop = { lambda = [-1.0, 10.0], event = \"limit-point\" }") +
+         fmt::format("[curve]\nevent = {{ kind = \"{}\" }}\nparameter = \"{}\"\nrange = {}\n", kind, over, range);
 }
 
 // Symmetric, so that its pitchfork persists.
 const std::string column = test::straight_column(8) + R"toml([curve]
 event = { kind = "branch-point" }
-over = "point.B.0"
+parameter = "point.B.0"
 range = [1.9, 2.2]
 )toml";
 
@@ -67,7 +67,7 @@ bool holds(const CurveSession& session, const verify::StoredCurve& files) {
 class FollowedCurve : public testing::TestWithParam<std::string> {};
 
 std::vector<std::string> curves() {
-  return {truss, column, channel("contact-closes"), channel("contact-spreads"), channel("limit-point")};
+  return {truss, column, channel("contact-closes"), channel("contact-splits"), channel("limit-point")};
 }
 
 }  // namespace
@@ -233,7 +233,7 @@ TEST_F(CurveProgramTest, IsACaseOfASweepSlow) {
 // by a run of its own, and along curves over the one for three values of the other, which land on the same values.
 TEST_F(CurveProgramTest, MakesTheKnockDownMapOfRunsSlow) {
   const std::string half = "member.column.imperfection.0.amplitude", third = "member.column.imperfection.1.amplitude";
-  put("deck.toml", channel("limit-point", third, "[5e-5, 1.5e-3]\nland = [1e-4, 4e-4, 1e-3]", 20));
+  put("deck.toml", channel("limit-point", third, "[5e-5, 1.5e-3]\noutput_at = [1e-4, 4e-4, 1e-3]", 20));
   const std::string head = "title = \"Map\"\ndeck = \"deck.toml\"\n", of_half = half + " = [0.001, 0.00176, 0.003]\n";
   put("runs.toml", head + "[grid]\n" + of_half + third + " = [1e-4, 4e-4, 1e-3]\n");
   put("curves.toml", head + "command = \"curve\"\n[grid]\n" + of_half);

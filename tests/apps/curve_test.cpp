@@ -68,7 +68,7 @@ path = { step = 1.0, branches = "primary", stop = { event = "limit-point", turn 
 monitor = [{ name = "turn", at = "corner", component = "rotation" }]
 member.column = { from = "foot", to = "corner", theory = "elastica", elements = 8, material = "m", section = "s" }
 member.beam = { from = "corner", to = "end", theory = "elastica", elements = 8, material = "m", section = "s" }
-curve = { event = { kind = "limit-point" }, over = "load.1.moment", range = [-1e-3, 1e-3] }
+curve = { event = { kind = "limit-point" }, parameter = "load.1.moment", range = [-1e-3, 1e-3] }
 )toml";
   return deck.replace(deck.find("%EA"), 3, EA);
 }
@@ -78,8 +78,9 @@ curve = { event = { kind = "limit-point" }, over = "load.1.moment", range = [-1e
 // P = EA w (w − h)(w − 2h)/L³ + k w in the depth w: limit points where P′ = 0. They end at a cusp where P′ and P″
 // vanish at w = h, k = EA h²/L³ = 9.851853368415734 = P.
 TEST(EventCurve, OfATrussOnASpringHasTheCuspOfTheClosedForm) {
-  const EventCurve curve = curve_of(truss(
-      "event = { kind = \"limit-point\" }\nover = \"spring.0.stiffness.z\"\nrange = [0.5, 12.0]\nland = [4.0]\n"));
+  const EventCurve curve =
+      curve_of(truss("event = { kind = \"limit-point\" }\nparameter = \"spring.0.stiffness.z\"\nrange = [0.5, "
+                     "12.0]\noutput_at = [4.0]\n"));
   const double L3 = std::pow(101.0, 1.5), cusp = 1e4 / L3;
   for (const CurvePoint& point : curve.points) {
     const double w = -point.monitors.at(0);
@@ -110,9 +111,9 @@ path = { step = 0.005, stop = { event = "limit-point" } }
 monitor = [{ name = "w", at = "top", component = "z" }]
 )toml") + test::two_bars + R"toml([curve]
 event = { kind = "limit-point" }
-over = "load.1.force.0"
+parameter = "load.1.force.0"
 range = [1e-9, 1e-4]
-land = [1e-8, 1e-6]
+output_at = [1e-8, 1e-6]
 )toml";
   const EventCurve curve = curve_of(deck);
   // Closed form of the perfect truss: at height z the sway begins where x² + z² = h² − 2b² has x = 0.
@@ -129,7 +130,7 @@ land = [1e-8, 1e-6]
 TEST(EventCurve, OfThePitchforkOfAColumnIsEulers) {
   const std::string deck = test::straight_column(16) + R"toml([curve]
 event = { kind = "branch-point" }
-over = "point.B.0"
+parameter = "point.B.0"
 range = [1.5, 3.0]
 )toml";
   const EventCurve curve = curve_of(deck);
@@ -159,10 +160,12 @@ std::string channel(const std::string& curve) {
 
 // Touch, spreading and snap over the gap are those of other runs.
 TEST(EventCurve, OfEachEventOfAColumnInAChannelIsThatOfOtherRunsSlow) {
-  for (const char* kind : {"contact-closes", "contact-spreads", "limit-point"}) {
+  for (const char* kind : {"contact-closes", "contact-splits", "limit-point"}) {
     SCOPED_TRACE(kind);
-    const std::string deck = channel(fmt::format(
-        "event = {{ kind = \"{}\" }}\nover = \"wall.upper.profile.z\"\nrange = [0.17, 0.25]\nland = [0.175]\n", kind));
+    const std::string deck =
+        channel(fmt::format("event = {{ kind = \"{}\" }}\nparameter = \"wall.upper.profile.z\"\nrange = [0.17, "
+                            "0.25]\noutput_at = [0.175]\n",
+                            kind));
     const EventCurve curve = curve_of(deck);
     ASSERT_GT(curve.points.size(), 5U);
     EXPECT_NO_THROW(at(curve, 0.175));
@@ -174,8 +177,8 @@ TEST(EventCurve, OfEachEventOfAColumnInAChannelIsThatOfOtherRunsSlow) {
 // of e₃, 4 e₃ and 16 e₃ the second fall is twice the first, but for a part that goes with √e₃ itself and is taken out.
 TEST(EventCurve, OfAThirdHarmonicFollowsTheSquareRootLawSlow) {
   const EventCurve curve = curve_of(
-      channel("event = { kind = \"limit-point\" }\nover = \"member.column.imperfection.1.amplitude\"\n"
-              "range = [1e-8, 1.7e-4]\nland = [4e-8, 1.6e-7, 6.4e-7, 2.56e-6, 1.024e-5, 4.096e-5, 1.6384e-4]\n"),
+      channel("event = { kind = \"limit-point\" }\nparameter = \"member.column.imperfection.1.amplitude\"\n"
+              "range = [1e-8, 1.7e-4]\noutput_at = [4e-8, 1.6e-7, 6.4e-7, 2.56e-6, 1.024e-5, 4.096e-5, 1.6384e-4]\n"),
       {"member.column.imperfection.0.amplitude=0.0"});
   std::vector<double> exponents;
   for (const double e : {1e-8, 4e-8, 1.6e-7, 6.4e-7, 2.56e-6, 1.024e-5}) {
@@ -204,7 +207,7 @@ TEST(EventCurve, OfRoordasFrameFollowsTheSquareRootLawSlow) {
   const std::vector<double> distances{1e-8, 1e-7, 1e-6, 1e-5, 1e-4};
   std::string land;
   for (const double distance : distances) land += fmt::format("{:.17g}, ", cusps[0].key + distance);
-  const EventCurve curve = curve_of(deck, {"curve.land=[" + land + "]"});
+  const EventCurve curve = curve_of(deck, {"curve.output_at=[" + land + "]"});
   std::vector<double> halves;
   for (const double distance : distances) {
     std::vector<double> loads;
@@ -237,7 +240,7 @@ TEST(EventCurve, TakesStepsThatDoNotHangOnAxialStiffnessSlow) {
 // λ is the end shortening, and the reaction turns before it does.
 TEST(EventCurve, OfAMonitorThatTurnsIsThatOfOtherRunsSlow) {
   std::string deck =
-      channel("event = { kind = \"displacement-limit\" }\nover = \"wall.upper.profile.z\"\nrange = [0.18, 0.22]\n");
+      channel("event = { kind = \"turning-point\" }\nparameter = \"wall.upper.profile.z\"\nrange = [0.18, 0.22]\n");
   const auto put = [&](const std::string& from, const std::string& to) {
     deck.replace(deck.find(from), from.size(), to);
   };
@@ -272,9 +275,9 @@ material = "m"
 section = "s"
 [curve]
 event = { kind = "limit-point" }
-over = "member.arch.sine.rise"
+parameter = "member.arch.sine.rise"
 range = [0.05, 0.15]
-land = [0.12]
+output_at = [0.12]
 )toml";
   const EventCurve curve = curve_of(deck);
   const auto cusps = specials(curve, CurveSpecialKind::cusp), crossings = specials(curve, CurveSpecialKind::crossing);
@@ -328,13 +331,13 @@ TEST(EventCurve, IsRefusedWithASentence) {
       return error.diagnostics().front().message;
     }
   };
-  const std::string over = "over = \"wall.upper.profile.z\"\n", range = "range = [0.17, 0.25]\n";
+  const std::string over = "parameter = \"wall.upper.profile.z\"\n", range = "range = [0.17, 0.25]\n";
   const std::string limit = "event = { kind = \"limit-point\" }\n";
   EXPECT_NE(problem(limit + over + "range = [0.3, 0.4]\n").find("is outside"), std::string::npos);
   EXPECT_NE(problem(limit + over).find("is missing"), std::string::npos);
   EXPECT_NE(problem(limit + over + "range = [0.3, 0.1]\n").find("no interval"), std::string::npos);
   EXPECT_NE(problem(limit).find("nothing varies"), std::string::npos);
-  EXPECT_NE(problem(limit + "over = \"wall.upper.side\"\n" + range).find("is no number"), std::string::npos);
+  EXPECT_NE(problem(limit + "parameter = \"wall.upper.side\"\n" + range).find("is no number"), std::string::npos);
   EXPECT_NE(problem("event = { kind = \"limit-point\", number = 7 }\n" + over + range).find("only 1"),
             std::string::npos);
   EXPECT_NE(problem("event = { kind = \"branch-point\" }\n" + over + range).find("none of kind branch-point"),
@@ -345,7 +348,7 @@ TEST(EventCurve, IsRefusedWithASentence) {
 TEST(EventCurve, NamesWallAndPlaceWhereItEnds) {
   const EventCurve curve =
       curve_of(test::pressed_column_in_channel(20, "stop = { lambda = [-1.0, 10.0] }") +
-               "[curve]\nevent = { kind = \"contact-closes\", number = 2 }\nover = \"wall.upper.profile.z\"\n"
+               "[curve]\nevent = { kind = \"contact-closes\", number = 2 }\nparameter = \"wall.upper.profile.z\"\n"
                "range = [0.18, 0.22]\n");
   const auto begins = std::find_if(curve.specials.begin(), curve.specials.end(),
                                    [](const CurveSpecial& one) { return one.kind == CurveSpecialKind::begins; });
@@ -355,7 +358,7 @@ TEST(EventCurve, NamesWallAndPlaceWhereItEnds) {
 
 TEST(EventCurve, IsWrittenAsATableAPageAndSpecialPoints) {
   const std::string text =
-      channel("event = { kind = \"contact-closes\" }\nover = \"wall.upper.profile.z\"\nrange = [0.19, 0.21]\n");
+      channel("event = { kind = \"contact-closes\" }\nparameter = \"wall.upper.profile.z\"\nrange = [0.19, 0.21]\n");
   const deck::Deck deck = deck::read_deck_text(text, "deck.toml");
   EXPECT_EQ(deck::read_deck_text(deck::to_toml(deck), "deck.toml"), deck);
   const EventCurve curve = curve_of(text);
@@ -374,10 +377,10 @@ TEST(EventCurve, IsWrittenAsATableAPageAndSpecialPoints) {
 // As the page of a run has it; along a curve over the load itself there is no one size of what λ multiplies.
 TEST(EventCurve, SaysOnItsPageWhatLambdaMultiplies) {
   const deck::Deck deck = deck::read_deck_text(
-      channel("event = { kind = \"contact-closes\" }\nover = \"wall.upper.profile.z\"\nrange = [0.19, 0.21]\n"),
+      channel("event = { kind = \"contact-closes\" }\nparameter = \"wall.upper.profile.z\"\nrange = [0.19, 0.21]\n"),
       "deck.toml", {"units.length='cm'", "units.force='kN'", "load.0.force=[-2.0, 0.0]"});
   const std::vector<LoadText> loads = driven_by_lambda(deck);
-  EventCurve curve{.key = deck.curve->over, .key_unit = "cm"};
+  EventCurve curve{.key = deck.curve->parameter, .key_unit = "cm"};
   const std::string with_size = "load factor λ, times 2 kN</text>", without = "load factor λ</text>";
   EXPECT_NE(curve_html(curve, loads).find(with_size), std::string::npos);
   EXPECT_NE(curve_picture(curve, loads).find(with_size), std::string::npos);

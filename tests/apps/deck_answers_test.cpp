@@ -41,7 +41,7 @@ units = { length = "cm", force = "kN" }
 material.steel = { E = 2.1e4 }
 section.s = { shape = "rectangle", width = 0.3, height = 0.15 }
 point = { a = [0.0, 0.0], b = [3.0, 0.0] }
-member.strip = { from = "a", to = "b", theory = "classic", material = "steel", section = "s", elements = 36 }
+member.strip = { from = "a", to = "b", theory = "euler-bernoulli", material = "steel", section = "s", elements = 36 }
 support = { a = ["x", "z"], b = ["z"] }
 load = [{ at = "a", moment = -1.0 }, { at = "b", moment = 1.0 }]
 wall = [{ name = "floor", side = "below", profile = { type = "flat", z = -0.2 } }]
@@ -56,7 +56,7 @@ title = "A guided beam pressed into a hollow"
 material.steel = { E = 2.1e4 }
 section.s = { shape = "rectangle", width = 1.2, height = 0.4 }
 point = { a = [0.0, 0.0], b = [12.0, 0.0] }
-member.beam = { from = "a", to = "b", theory = "classic", material = "steel", section = "s", elements = 48 }
+member.beam = { from = "a", to = "b", theory = "euler-bernoulli", material = "steel", section = "s", elements = 48 }
 support = { a = ["x", "z", "rotation"], b = ["z", "rotation"] }
 load = [{ on = "beam", distributed = [0.0, -2.0] }]
 wall = [{ name = "hollow", side = "below", profile = { type = "parabola", apex = [4.8, -1.4], curvature = 0.012 } }]
@@ -70,7 +70,7 @@ title = "A strip bent onto a pin that is thinner than an element is long"
 material.steel = { E = 2.1e4 }
 section.s = { shape = "rectangle", width = 0.05, height = 0.03 }
 point = { clamp = [0.0, 0.0], tip = [2.0, 0.0] }
-member.strip = { from = "clamp", to = "tip", theory = "classic", material = "steel", section = "s", elements = 16 }
+member.strip = { from = "clamp", to = "tip", theory = "euler-bernoulli", material = "steel", section = "s", elements = 16 }
 support = { clamp = ["x", "z", "rotation"] }
 load = [{ at = "tip", force = [0.0, -5e-4] }]
 wall = [{ name = "pin", side = "below", profile = { type = "circle", centre = [1.1, -0.2], radius = 0.012 } }]
@@ -84,7 +84,7 @@ title = "A strip bent onto a round stop that is shorter than itself"
 material.steel = { E = 2.1e4 }
 section.s = { shape = "rectangle", width = 0.05, height = 0.03 }
 point = { clamp = [0.0, 0.0], tip = [2.0, 0.0] }
-member.strip = { from = "clamp", to = "tip", theory = "classic", material = "steel", section = "s", elements = 32 }
+member.strip = { from = "clamp", to = "tip", theory = "euler-bernoulli", material = "steel", section = "s", elements = 32 }
 support = { clamp = ["x", "z", "rotation"] }
 load = [{ at = "tip", force = [0.0, -5e-4] }]
 wall = [{ name = "stop", side = "below", profile = { type = "circle", centre = [1.1, -0.45], radius = 0.35 } }]
@@ -103,9 +103,9 @@ load = [{ at = "beam:0.4375", force = [0.0, -0.14] }, { at = "b", force = [0.005
 monitor = [{ name = "sway", at = "b", component = "x" }]
 path = { step = 0.05, stop = { lambda = [-1.0, 2.0], sway = [-9.0, 9.0] } }
 [member]
-west = { from = "a", to = "b", theory = "classic", material = "steel", section = "s", elements = 10 }
-beam = { from = "b", to = "c", theory = "classic", material = "steel", section = "s", elements = 16 }
-east = { from = "c", to = "e", theory = "classic", material = "steel", section = "s", elements = 10 }
+west = { from = "a", to = "b", theory = "euler-bernoulli", material = "steel", section = "s", elements = 10 }
+beam = { from = "b", to = "c", theory = "euler-bernoulli", material = "steel", section = "s", elements = 16 }
+east = { from = "c", to = "e", theory = "euler-bernoulli", material = "steel", section = "s", elements = 10 }
 [[wall]]
 name = "hump"
 side = "below"
@@ -157,7 +157,7 @@ title = "A slender column between far walls"
 material.steel = { E = 2.1e4 }
 section.s = { shape = "rectangle", width = 0.6, height = 0.1 }
 point = { foot = [0.0, 0.0], head = [20.0, 0.0] }
-member.column = { from = "foot", to = "head", theory = "classic", material = "steel", section = "s", elements = 60 }
+member.column = { from = "foot", to = "head", theory = "euler-bernoulli", material = "steel", section = "s", elements = 60 }
 support = { foot = ["x", "z"], head = ["z"] }
 load = [{ at = "head", force = [-0.02, 0.0] }]
 monitor = [{ name = "mid", at = "column:0.5", component = "z" }]
@@ -165,12 +165,12 @@ path = { step = 0.05, stop = { lambda = [-1.0, 8.0] } }
 [[wall]]
 name = "above"
 side = "above"
-acts_on = "axis"
+contact_surface = "axis"
 profile = { type = "flat", z = 0.9 }
 [[wall]]
 name = "below"
 side = "below"
-acts_on = "axis"
+contact_surface = "axis"
 profile = { type = "flat", z = -2.0 }
 )toml";
 
@@ -185,14 +185,14 @@ section.hook = { shape = "rectangle", width = 6.0, height = 1.2 }
 section.spring = { shape = "general", A = 0.2, I = 1.0 }
 point = { base = [0.0, 0.0], tip = [18.0, 0.0], nose = [18.0, -1.2], anchor = [-80.0, 0.0] }
 support = { base = ["z", "rotation"], anchor = ["x", "z"] }
-wall = [{ name = "ramp", side = "below", acts_on = "axis", members = ["nose"], profile = { type = "parabola", apex = [23.0, -0.4], curvature = -0.2 } }]
+wall = [{ name = "ramp", side = "below", contact_surface = "axis", members = ["nose"], profile = { type = "parabola", apex = [23.0, -0.4], curvature = -0.2 } }]
 load = [{ at = "base", force = [1.0, 0.0] }]
 monitor = [{ name = "push", at = "base", component = "x" }]
 path = { step = 0.01, stop = { push = [-0.1, 11.0] } }
 [member]
-beam = { from = "base", to = "tip", theory = "classic", material = "plastic", section = "hook", elements = 24 }
-nose = { from = "tip", to = "nose", theory = "classic", material = "plastic", section = "hook", elements = 4 }
-spring = { from = "anchor", to = "base", theory = "classic", hinge = ["from", "to"], material = "soft", section = "spring", elements = 1 }
+beam = { from = "base", to = "tip", theory = "euler-bernoulli", material = "plastic", section = "hook", elements = 24 }
+nose = { from = "tip", to = "nose", theory = "euler-bernoulli", material = "plastic", section = "hook", elements = 4 }
+spring = { from = "anchor", to = "base", theory = "euler-bernoulli", hinge = ["from", "to"], material = "soft", section = "spring", elements = 1 }
 )toml";
 
 // From a run with four times the elements and steps of at most 0.02. λ falls to the end, and no event is met twice.
@@ -205,7 +205,7 @@ support = { foot = ["x", "z"], head = ["z"] }
 load = [{ at = "head", force = [-2.2, 0.0] }]
 monitor = [{ name = "mid", at = "column:0.5", component = "z" }, { name = "shortening", at = "head", component = "x", sign = -1 }]
 path = { step = 0.05, stop = { lambda = [-1.0, 11.0], shortening = [-3.0, 4.6] } }
-member.column = { from = "foot", to = "head", theory = "classic", material = "steel", section = "s", elements = 80, imperfection = [{ shape = "sine", amplitude = 0.0015, waves = 1 }, { shape = "sine", amplitude = 0.004, waves = 2 }] }
+member.column = { from = "foot", to = "head", theory = "euler-bernoulli", material = "steel", section = "s", elements = 80, imperfection = [{ shape = "sine", amplitude = 0.0015, waves = 1 }, { shape = "sine", amplitude = 0.004, waves = 2 }] }
 [[wall]]
 name = "above"
 side = "above"
@@ -335,10 +335,10 @@ TEST(PerfectColumn, TouchesAndSpreadsInChannelsOfAnyWidth) {
 point = {{ A = [0.0, 0.0], B = [2.0, 0.0] }}
 support = {{ A = ["x", "z"], B = ["z"] }}
 load = [{{ at = "B", force = [-1.0, 0.0] }}]
-path = {{ step = 0.05, landing = false, stop = {{ lambda = [-1.0, 2.0] }} }}
+path = {{ step = 0.05, jumps = false, stop = {{ lambda = [-1.0, 2.0] }} }}
 wall = [
-  {{ name = "upper", side = "above", acts_on = "axis", profile = {{ type = "flat", z = {0} }} }},
-  {{ name = "lower", side = "below", acts_on = "axis", profile = {{ type = "flat", z = -{0} }} }},
+  {{ name = "upper", side = "above", contact_surface = "axis", profile = {{ type = "flat", z = {0} }} }},
+  {{ name = "lower", side = "below", contact_surface = "axis", profile = {{ type = "flat", z = -{0} }} }},
 ]
 member.c = {{ from = "A", to = "B", theory = "elastica", elements = 20, material = "m", section = "s" }}
 )toml",
@@ -364,8 +364,8 @@ TEST(SineArch, FallsFromItsLimitPointOntoAFloor) {
 point = {{ l = [0.0, 0.0], r = [2.0, 0.0] }}
 support = {{ l = ["x", "z"], r = ["x", "z"] }}
 load = [{{ at = "arch:0.5", force = [0.0, -1.0] }}]
-path = {{ step = 0.01, branches = "primary", landing = true, stop = {{ lambda = [-0.5, 0.5] }} }}
-wall = [{{ name = "floor", side = "below", acts_on = "axis", profile = {{ type = "flat", z = -0.02 }} }}]
+path = {{ step = 0.01, branches = "primary", jumps = true, stop = {{ lambda = [-0.5, 0.5] }} }}
+wall = [{{ name = "floor", side = "below", contact_surface = "axis", profile = {{ type = "flat", z = -0.02 }} }}]
 member.arch = {{ from = "l", to = "r", sine = {{ rise = {}, waves = 1 }}, theory = "elastica", elements = 20, material = "m", section = "s" }}
 )toml",
                                          one.rise);
@@ -373,15 +373,15 @@ member.arch = {{ from = "l", to = "r", sine = {{ rise = {}, waves = 1 }}, theory
     const RecordEvent& limit = event_of(traced, EventKind::limit_point);
     EXPECT_NEAR(limit.lambda, one.limit, 1e-8);
     EXPECT_NEAR(event_of(traced, EventKind::contact_closes).lambda, one.touch, 1e-8);
-    ASSERT_TRUE(limit.landing && limit.landing->reason.empty());
-    EXPECT_EQ(limit.landing->word, "floor");
-    ASSERT_EQ(limit.landing->contacts.size(), 1U);
-    EXPECT_NEAR(limit.landing->contacts[0].force, one.limit - one.touch, 2e-8);
+    ASSERT_TRUE(limit.jump && limit.jump->reason.empty());
+    EXPECT_EQ(limit.jump->contact_pattern, "floor");
+    ASSERT_EQ(limit.jump->contacts.size(), 1U);
+    EXPECT_NEAR(limit.jump->contacts[0].force, one.limit - one.touch, 2e-8);
     // Taken back, the load goes into the floor alone, and nothing moves until that lets go; the highest arch sways
     // before.
     if (one.rise < 0.12) {
-      ASSERT_TRUE(limit.landing->back);
-      EXPECT_NEAR(limit.landing->back->lambda, one.touch, 1e-8);
+      ASSERT_TRUE(limit.jump->on_return);
+      EXPECT_NEAR(limit.jump->on_return->lambda, one.touch, 1e-8);
     }
   }
 }
@@ -404,18 +404,18 @@ member.east = { from = "top", to = "b", theory = "elastica", material = "m", sec
 load = [{ at = "top", force = [0.0, -1.0] }]
 wall = [{ name = "floor", side = "below", profile = { type = "flat", z = -0.63 } }]
 monitor = [{ name = "down", at = "top", component = "z", sign = -1 }]
-path = { step = 0.05, landing = false, stop = { lambda = [-3.0, 3.0] } }
+path = { step = 0.05, jumps = false, stop = { lambda = [-3.0, 3.0] } }
 )toml",
                                   {"path.step=" + step});
     const Record& record = traced.record();
     ASSERT_EQ(record.branches.size(), 3U);
     EXPECT_EQ(record.branches.back().end.value().reason, EndReason::stop);
     EXPECT_NEAR(record.points.back().lambda, 3.0, 1e-12);
-    const RecordEvent& landing = event_of(traced, EventKind::contact_closes);
-    EXPECT_EQ(landing.contacts.size(), 2U);
-    EXPECT_NEAR(landing.lambda, touch, 1e-8);
-    EXPECT_EQ(landing.unstable_before, 0);
-    EXPECT_EQ(landing.unstable_after, 0);
+    const RecordEvent& jump = event_of(traced, EventKind::contact_closes);
+    EXPECT_EQ(jump.contacts.size(), 2U);
+    EXPECT_NEAR(jump.lambda, touch, 1e-8);
+    EXPECT_EQ(jump.unstable_before, 0);
+    EXPECT_EQ(jump.unstable_after, 0);
   }
 }
 

@@ -129,9 +129,9 @@ point = { l = [0.0, 0.0], r = [2.0, 0.0] }
 support = { l = ["x", "z"], r = ["x", "z"] }
 member.arch = { from = "l", to = "r", sine = { rise = 0.1, waves = 1 }, theory = "elastica", elements = 40, material = "m", section = "s" }
 load = [{ on = "arch", distributed = [0.0, -1.0] }]
-path = { step = 0.01, landing = true, stop = { lambda = [-0.05, 0.2] } }
+path = { step = 0.01, jumps = true, stop = { lambda = [-0.05, 0.2] } }
 monitor = [{ name = "quarter", at = "arch:0.25", component = "z" }]
-wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = )toml" +
+wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = )toml" +
          z + " } }]\n";
 }
 

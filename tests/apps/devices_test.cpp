@@ -67,7 +67,7 @@ Number of_lattice(const Record& record) {
   for (double d = 0.0; d < 1.0; d += 1e-3)
     greatest =
         std::max(greatest, 1.5 * std::pow(pi, 4.0) * Q * Q * d * ((d - 1.5) * (d - 1.5) - 0.25 + 4.0 / (3.0 * Q * Q)));
-  const RecordEvent& peak = test::event_of(record, EventKind::displacement_limit);
+  const RecordEvent& peak = test::event_of(record, EventKind::turning_point);
   return {monitor(record, peak.monitors, "force"), 2.0 * greatest * EI * 3.0 / std::pow(40.0, 3.0), 0.06};
 }
 
@@ -118,7 +118,7 @@ Number of_ring(const Record& record) {  // at 1/100 of the radius
 }
 
 Number of_snap_fit(const Record& record) {  // P t with P = (3 EI y/ℓ³)/(1 − 3 a t/(2 ℓ)), at the greatest push
-  const RecordEvent& greatest = test::event_of(record, EventKind::displacement_limit);
+  const RecordEvent& greatest = test::event_of(record, EventKind::turning_point);
   const double EI = 2400.0 * 5.0 * std::pow(1.5, 3.0) / 12.0, y = monitor(record, greatest.monitors, "lift");
   return {monitor(record, greatest.monitors, "push"), 0.5 * 3.0 * EI * y / 8000.0 / (1.0 - 1.5 * 3.0 * 0.5 / 20.0),
           0.08};
@@ -146,7 +146,7 @@ TEST(ExampleDevices, HaveTheNumbersThatTheySaySlow) {
     const test::TracedDeck traced(device.text);
     const Record& record = traced.record();
     for (const RecordBranch& branch : record.branches)
-      EXPECT_TRUE(branch.end->reason == EndReason::stop || branch.end->reason == EndReason::branched)
+      EXPECT_TRUE(branch.end->reason == EndReason::stop || branch.end->reason == EndReason::switched_branch)
           << branch.end->detail;
     const Number number = numbers.at(device.name)(record);
     EXPECT_NEAR(number.found, number.by_hand, number.relative * number.by_hand);
@@ -163,7 +163,7 @@ TEST(Pipeline, LeavesAPitchforkOnceThoughItComesBackOnAnotherMesh) {
   ASSERT_NE(pipeline, devices.end());
   Session run({.deck = "pipeline.toml",
                .deck_text = std::string(pipeline->text),
-               .assignments = {"path.branches=\"follow\"", "load.0.distributed=[0.0, -1.03]"}});
+               .assignments = {"path.branches=\"most-stable\"", "load.0.distributed=[0.0, -1.03]"}});
   ASSERT_TRUE(run.begin()) << run.problem();
   while (run.next() != nullptr) ASSERT_LT(run.points().size(), 300u);
   EXPECT_EQ(run.record().branches.size(), 2u);

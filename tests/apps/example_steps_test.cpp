@@ -29,7 +29,7 @@ TEST(ExampleDecks, FindTheSameEventsWithAnyStepSlow) {
     const Model model(deck::read_deck_text(example.text, std::string(example.name)));
     const test::Graph expected = traced(model, 1.0, 1.0);
     for (const test::Branch& branch : expected.branches)
-      for (const Event& event : test::events_of(branch)) EXPECT_FALSE(event.suspected);
+      for (const Event& event : test::events_of(branch)) EXPECT_FALSE(event.unconfirmed);
     for (const double first : {0.25, 4.0})
       for (const double greatest : {1.0, first}) {
         SCOPED_TRACE("first step times " + std::to_string(first) + ", greatest times " + std::to_string(greatest));

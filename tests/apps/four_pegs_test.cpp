@@ -18,7 +18,7 @@ std::string column(int elements) {
   for (const int third : {1, 2})
     for (const double side : {1.0, -1.0})
       walls += fmt::format(
-          R"({{ name = "{}{}", acts_on = "axis", outline = {{ type = "circle", centre = [{:.17g}, {:.17g}], radius = {} }} }},
+          R"({{ name = "{}{}", contact_surface = "axis", outline = {{ type = "circle", centre = [{:.17g}, {:.17g}], radius = {} }} }},
 )",
           side > 0.0 ? "over" : "under", third, third / 3.0, side * (radius + clearance), radius);
   return fmt::format(R"(
@@ -31,7 +31,7 @@ support = {{ A = ["x", "z"], B = ["z"] }}
 member.column = {{ from = "A", to = "B", theory = "elastica", elements = {}, material = "m", section = "s" }}
 load = [{{ at = "B", force = [-1.0, 0.0] }}]
 monitor = [{{ name = "middle", at = "column:0.5", component = "z" }}]
-path = {{ step = 1.0, branches = "follow", landing = false, stop = {{ lambda = [-1.0, 150.0] }} }}
+path = {{ step = 1.0, branches = "most-stable", jumps = false, stop = {{ lambda = [-1.0, 150.0] }} }}
 wall = [
 {}]
 )",

@@ -25,8 +25,8 @@ monitor = [{{ name = "down", at = "crown", component = "z", sign = -1 }}]
 path = {{ step = {}, stop = {{ lambda = [-1.0, 4.0] }} }}
 wall = [{{ name = "floor", side = "below", profile = {{ type = "flat", z = -1.1 }} }}]
 [member]
-west = {{ from = "left", to = "crown", via = [3.3, -0.45], theory = "classic", material = "steel", section = "s", elements = {} }}
-east = {{ from = "crown", to = "right", via = [9.9, -0.45], theory = "classic", material = "steel", section = "s", elements = {} }}
+west = {{ from = "left", to = "crown", via = [3.3, -0.45], theory = "euler-bernoulli", material = "steel", section = "s", elements = {} }}
+east = {{ from = "crown", to = "right", via = [9.9, -0.45], theory = "euler-bernoulli", material = "steel", section = "s", elements = {} }}
 )toml",
                      step, elements, elements);
 }
@@ -75,7 +75,7 @@ member.c = {{ from = "a", to = "j", theory = "elastica", elements = {}, material
 member.d = {{ from = "j", to = "b", theory = "elastica", elements = {}, material = "m", section = "s" }}
 )toml",
                                               elements, elements));
-    const RecordEvent& passes = test::event_of(traced, EventKind::contact_passes);
+    const RecordEvent& passes = test::event_of(traced, EventKind::contact_transfers);
     const double error = elements == 24 ? 1e-6 : 2.5e-7;  // of stocky members: with the square of the elements' length
     EXPECT_NEAR(passes.lambda, 2.59473151415517, error);
     EXPECT_NEAR(passes.monitors[0], -25.39227293634156, 100.0 * error);

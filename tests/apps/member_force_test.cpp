@@ -89,15 +89,16 @@ std::string said_of(const std::string& deck) {
 }  // namespace
 
 TEST(MemberForce, BalancesWhatIsCutOff) {
-  for (const char* theory : {"theory = \"classic\"", "theory = \"elastica\"", "theory = \"exact\"\norder = 1",
-                             "theory = \"exact\"", "theory = \"essenburg\"\nalong = \"director\""}) {
+  for (const char* theory :
+       {"theory = \"euler-bernoulli\"", "theory = \"elastica\"", "theory = \"reissner\"\norder = 1",
+        "theory = \"reissner\"", "theory = \"essenburg\"\nalong = \"director\""}) {
     SCOPED_TRACE(theory);
     expect_balance(TracedDeck(clamped_strip(theory)));
   }
 }
 
 TEST(MemberForce, BalancesOnAMeshThatSlides) {
-  for (const char* theory : {"theory = \"classic\"", "theory = \"elastica\""}) {
+  for (const char* theory : {"theory = \"euler-bernoulli\"", "theory = \"elastica\""}) {
     SCOPED_TRACE(theory);
     const TracedDeck run(clamped_strip(theory, far_wall));
     ASSERT_NE(run.model().sliding(), nullptr);
@@ -106,13 +107,13 @@ TEST(MemberForce, BalancesOnAMeshThatSlides) {
 }
 
 TEST(MemberForce, HasGradients) {
-  expect_gradients(TracedDeck(clamped_strip("theory = \"classic\"")));
-  expect_gradients(TracedDeck(clamped_strip("theory = \"exact\"")));
-  expect_gradients(TracedDeck(clamped_strip("theory = \"classic\"", far_wall)));
+  expect_gradients(TracedDeck(clamped_strip("theory = \"euler-bernoulli\"")));
+  expect_gradients(TracedDeck(clamped_strip("theory = \"reissner\"")));
+  expect_gradients(TracedDeck(clamped_strip("theory = \"euler-bernoulli\"", far_wall)));
 }
 
 TEST(MemberForce, CanStopAPath) {
-  const std::string deck = clamped_strip("theory = \"classic\"");
+  const std::string deck = clamped_strip("theory = \"euler-bernoulli\"");
   const TracedDeck run(deck::replaced(deck, "lambda = [-1.0, 1.0]", "lambda = [-1.0, 1.0], M = [-0.4, 0.4]"));
   EXPECT_NEAR(last(run, "M"), -0.4, 1e-12);
 }
@@ -122,12 +123,12 @@ TEST(MemberForce, IsRefusedWhereItIsNotOne) {
 from = "tip"
 to = "clamp"
 via = [2.0, 2.0]
-theory = "classic"
+theory = "euler-bernoulli"
 material = "m"
 section = "s"
 elements = 8
 [[load]])";
-  const std::string both = deck::replaced(clamped_strip("theory = \"classic\""), "[[load]]", second);
+  const std::string both = deck::replaced(clamped_strip("theory = \"euler-bernoulli\""), "[[load]]", second);
   EXPECT_NE(said_of(both).find("does not have this component"), std::string::npos);
 }
 

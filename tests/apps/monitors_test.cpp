@@ -66,8 +66,8 @@ std::string said_of(const std::string& deck) {
 const std::string far_wall = "[[wall]]\nname = \"w\"\nside = \"below\"\nprofile = { type = \"flat\", z = -50.0 }\n";
 const std::string simply_supported = "support = { A = [\"x\", \"z\"], B = [\"z\"] }\n";
 
-const std::vector<std::string> beam_theories{"theory = \"classic\"", "theory = \"elastica\"",
-                                             "theory = \"exact\", order = 1", "theory = \"exact\"",
+const std::vector<std::string> beam_theories{"theory = \"euler-bernoulli\"", "theory = \"elastica\"",
+                                             "theory = \"reissner\", order = 1", "theory = \"reissner\"",
                                              "theory = \"essenburg\", along = \"director\""};
 
 }  // namespace
@@ -76,7 +76,7 @@ const std::vector<std::string> beam_theories{"theory = \"classic\"", "theory = \
 TEST(GreatestMoment, OfACantileverIsThatOfItsClamp) {
   for (const std::string& theory : beam_theories)
     for (const bool slides : {false, true}) {
-      if (slides && theory.find("classic") == std::string::npos && theory.find("elastica") == std::string::npos)
+      if (slides && theory.find("euler-bernoulli") == std::string::npos && theory.find("elastica") == std::string::npos)
         continue;
       SCOPED_TRACE(theory + (slides ? ", sliding" : ""));
       const TracedDeck run(beam(theory, 6,
@@ -84,7 +84,7 @@ TEST(GreatestMoment, OfACantileverIsThatOfItsClamp) {
 support = { A = ["x", "z", "rotation"] }
 load = [{ at = "B", force = [-0.2, -1.0] }]
 path = { step = 0.1, stop = { lambda = [-1.0, 1.0] } }
-)toml" + (slides ? far_wall : "") + monitor("M", "member = \"beam\"", "greatest-moment") +
+)toml" + (slides ? far_wall : "") + monitor("M", "member = \"beam\"", "max-moment") +
                                     monitor("x", "at = \"B\"", "x") + monitor("z", "at = \"B\"", "z")));
       ASSERT_EQ(run.model().sliding() != nullptr, slides);
       EXPECT_LT(last(run, "z"), -0.2) << "the beam should bend much";
@@ -102,8 +102,8 @@ TEST(GreatestMoment, OfAUniformLoadIsInTheMiddleBetweenNodes) {
     SCOPED_TRACE(theory);
     const auto loaded = [&](const std::string& load) {
       return TracedDeck(beam(theory, 5, simply_supported + "load = [" + load + "]\n" + R"toml(
-path = { step = 0.2, land = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
-)toml" + monitor("M", "member = \"beam\"", "greatest-moment")));
+path = { step = 0.2, output_at = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
+)toml" + monitor("M", "member = \"beam\"", "max-moment")));
     };
     const TracedDeck run = loaded("{ on = \"beam\", distributed = [0.0, -1e-3] }");
     EXPECT_NEAR(last(run, "M"), 1e-3 / 8.0, 1e-7 * 1e-3);
@@ -122,8 +122,8 @@ TEST(GreatestMoment, JumpsFromPlaceToPlaceWithoutAJumpOfItsValue) {
     SCOPED_TRACE(walls);
     const TracedDeck run(beam("theory = \"elastica\"", 7, simply_supported + R"toml(
 load = [{ on = "beam", distributed = [0.0, -1e-3], constant = true }, { at = "A", moment = 1e-3 }]
-path = { step = 0.01, max_step = 0.005, land = { lambda = [0.05, 0.0857, 0.0858, 0.12] }, stop = { lambda = [-1.0, 0.12] } }
-)toml" + walls + monitor("M", "member = \"beam\"", "greatest-moment")));
+path = { step = 0.01, max_step = 0.005, output_at = { lambda = [0.05, 0.0857, 0.0858, 0.12] }, stop = { lambda = [-1.0, 0.12] } }
+)toml" + walls + monitor("M", "member = \"beam\"", "max-moment")));
     std::size_t before = 0, behind = 0;
     for (std::size_t i = 0; i < run.record().points.size(); ++i) {
       const double mu = run.record().points[i].state.lambda;
@@ -143,14 +143,14 @@ TEST(GreatestMoment, MayEndAPath) {
 support = { A = ["x", "z", "rotation"] }
 load = [{ at = "B", force = [0.0, -1.0] }]
 path = { step = 0.1, stop = { lambda = [-1.0, 10.0], M = [-1.0, 1.25] } }
-)toml" + monitor("M", "member = \"beam\"", "greatest-moment")));
+)toml" + monitor("M", "member = \"beam\"", "max-moment")));
   EXPECT_NEAR(last(run, "M"), 1.25, 1e-11);
 }
 
 // A face at a clearance from a floor: in the middle, which does not turn, it is less the deflection, and 0 where it
 // touches. A round wall beside it is so far as its centre, less its radius and half the height.
 TEST(GapMonitor, IsTheClearanceLessTheDeflection) {
-  for (const char* points : {"nodes", "sliding"}) {
+  for (const char* points : {"nodes", "moving"}) {
     SCOPED_TRACE(points);
     const TracedDeck run(beam("theory = \"elastica\"", 4,
                               simply_supported +
@@ -183,15 +183,15 @@ wall = [{{ name = "floor", side = "below", profile = {{ type = "flat", z = -0.06
 
 // What closes is the wall's way as well: a beam that stands still, and one whose support goes along.
 TEST(GapMonitor, FollowsAWallThatMoves) {
-  for (const char* points : {"nodes", "sliding"}) {
+  for (const char* points : {"nodes", "moving"}) {
     SCOPED_TRACE(points);
-    const TracedDeck run(beam("theory = \"classic\"", 4,
+    const TracedDeck run(beam("theory = \"euler-bernoulli\"", 4,
                               fmt::format(R"toml(
 support = {{ A = ["x", "z"], B = ["z"] }}
 prescribed = [{{ at = "B", z = 0.1 }}]
-path = {{ step = 0.02, land = {{ lambda = [0.04, 0.08, 0.12, 0.16] }}, stop = {{ lambda = [-0.1, 0.2] }} }}
+path = {{ step = 0.02, output_at = {{ lambda = [0.04, 0.08, 0.12, 0.16] }}, stop = {{ lambda = [-0.1, 0.2] }} }}
 contact = {{ points = "{}" }}
-wall = [{{ name = "press", side = "above", acts_on = "axis", profile = {{ type = "flat", z = 0.5 }}, motion = {{ z = -1.0 }} }}]
+wall = [{{ name = "press", side = "above", contact_surface = "axis", profile = {{ type = "flat", z = 0.5 }}, motion = {{ z = -1.0 }} }}]
 )toml",
                                           points) +
                                   monitor("g", "at = \"beam:0.5\"\nwall = \"press\"", "gap") +
@@ -218,8 +218,8 @@ TEST(GapMonitor, IsInfiniteWhereThereIsNoWall) {
   const TracedDeck run(beam("theory = \"elastica\"", 4,
                             simply_supported + R"toml(
 load = [{ on = "beam", distributed = [0.0, -0.1] }]
-path = { step = 0.2, land = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
-wall = [{ name = "hill", side = "below", acts_on = "axis", profile = { type = "circle", centre = [0.25, -1.0], radius = 0.1 } }]
+path = { step = 0.2, output_at = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
+wall = [{ name = "hill", side = "below", contact_surface = "axis", profile = { type = "circle", centre = [0.25, -1.0], radius = 0.1 } }]
 )toml" + monitor("near", "at = \"beam:0.25\"\nwall = \"hill\"", "gap") +
                                 monitor("far", "at = \"beam:0.75\"\nwall = \"hill\"", "gap")));
   EXPECT_NEAR(value(run, "near", 0), 0.9, 1e-14);
@@ -236,7 +236,7 @@ TEST(SpringMonitor, IsTheStiffnessTimesTheWayByStatics) {
 support = { A = ["x", "z"] }
 spring = [{ name = "end", at = "B", stiffness = { z = 2.0 } }]
 load = [{ at = "beam:0.5", force = [0.0, -1e-3] }]
-path = { step = 0.2, land = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
+path = { step = 0.2, output_at = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
 )toml" + monitor("F", "spring = \"end\"", "force-z") +
                                   monitor("z", "at = \"B\"", "z")));
     EXPECT_NEAR(last(run, "F"), -0.5e-3, 1e-9);
@@ -274,10 +274,10 @@ point = {{ A = [0.0, 0.0], B = [1.0, 0.0], C = [0.0, 1.0], D = [1.0, 1.0] }}
 support = {{ A = ["x", "z", "rotation"], C = ["x", "z", "rotation"] }}
 spring = [{{ name = "link", between = ["B", "D"], {} }}]
 load = [{{ at = "D", force = [0.0, -1e-3] }}]
-path = {{ step = 0.2, land = {{ lambda = [0.2, 0.4, 0.6, 0.8] }}, stop = {{ lambda = [-1.0, 1.0] }} }}
+path = {{ step = 0.2, output_at = {{ lambda = [0.2, 0.4, 0.6, 0.8] }}, stop = {{ lambda = [-1.0, 1.0] }} }}
 [member]
-low = {{ from = "A", to = "B", theory = "classic", elements = 2, material = "m", section = "s" }}
-high = {{ from = "C", to = "D", theory = "classic", elements = 2, material = "m", section = "s" }}
+low = {{ from = "A", to = "B", theory = "euler-bernoulli", elements = 2, material = "m", section = "s" }}
+high = {{ from = "C", to = "D", theory = "euler-bernoulli", elements = 2, material = "m", section = "s" }}
 )toml",
                                      1.0 / 12.0, spring) +
                          monitor("F", "spring = \"link\"", "force-z") + monitor("b", "at = \"B\"", "z") +
@@ -292,21 +292,21 @@ high = {{ from = "C", to = "D", theory = "classic", elements = 2, material = "m"
 // A beam that lies on soil: a uniform load sinks it in by q / k, so that the soil presses with q everywhere; under a
 // force in its middle the pressure there is greatest, k times the settlement.
 TEST(FoundationMonitor, ShowsTheGreatestPressure) {
-  for (const std::string& theory :
-       {std::string("theory = \"classic\""), std::string("theory = \"elastica\""), std::string("theory = \"exact\"")}) {
+  for (const std::string& theory : {std::string("theory = \"euler-bernoulli\""), std::string("theory = \"elastica\""),
+                                    std::string("theory = \"reissner\"")}) {
     SCOPED_TRACE(theory);
     const auto sunk = [&](const std::string& load, const std::string& walls) {
       return TracedDeck(beam(theory, 8,
                              R"toml(
 support = { A = ["x"] }
 spring = [{ name = "soil", on = "beam", foundation = { z = 200.0 } }]
-path = { step = 0.2, land = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
+path = { step = 0.2, output_at = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
 )toml" + load + walls + monitor("p", "spring = \"soil\"", "greatest-pressure") +
                                  monitor("z", "at = \"beam:0.5\"", "z")));
     };
     const TracedDeck even = sunk("load = [{ on = \"beam\", distributed = [0.0, -1e-2] }]\n", "");
     EXPECT_NEAR(last(even, "p"), 1e-2, 1e-10);
-    for (const std::string& walls : {std::string(), theory.find("exact") == std::string::npos ? far_wall : ""}) {
+    for (const std::string& walls : {std::string(), theory.find("reissner") == std::string::npos ? far_wall : ""}) {
       const TracedDeck pressed = sunk("load = [{ at = \"beam:0.5\", force = [0.0, -1e-2] }]\n", walls);
       EXPECT_NEAR(last(pressed, "p"), -200.0 * last(pressed, "z"), 1e-9 * last(pressed, "p"));
       EXPECT_NEAR(last(pressed, "p-place"), 0.5, 1e-9);
@@ -320,13 +320,13 @@ TEST(NewMonitors, AreRefusedWhereThereIsNothingToShow) {
   const auto with = [](const std::string& monitor, const std::string& more = "") {
     return said_of(beam("theory = \"elastica\"", 4, simply_supported + R"toml(
 load = [{ at = "beam:0.5", force = [0.0, -1e-2] }]
-path = { step = 0.2, land = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
+path = { step = 0.2, output_at = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
 )toml" + more + monitor));
   };
   const auto expect = [](const std::string& said, const std::vector<std::string>& parts) {
     for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << said << "\n: " << part;
   };
-  expect(with(monitor("M", "member = \"beem\"", "greatest-moment")), {"monitor.0.member", "did you mean beam?"});
+  expect(with(monitor("M", "member = \"beem\"", "max-moment")), {"monitor.0.member", "did you mean beam?"});
   expect(with(monitor("F", "spring = \"s\"", "force-z")),
          {"monitor.0.spring", "give the [[spring]] that is meant a name"});
   const std::string spring = "spring = [{ name = \"end\", at = \"B\", stiffness = { x = 2.0 } }]\n";
@@ -345,10 +345,10 @@ path = { step = 0.2, land = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda =
   expect(said_of(deck::replaced(beam("theory = \"elastica\"", 4, simply_supported + R"toml(
 load = [{ at = "beam:0.5", force = [0.0, -1e-2] }]
 path = { step = 0.5, stop = { lambda = [-1.0, 1.0] } }
-)toml" + monitor("M", "member = \"beam\"", "greatest-moment")),
+)toml" + monitor("M", "member = \"beam\"", "max-moment")),
                                 "path = {", "path = { watch = [\"M\"],")),
          {"path.watch", "may turn where its place jumps"});
-  expect(with(monitor("g", "at = \"beam:0.5\"", "greatest-moment")), {"belongs to a member", "write `member` instead"});
+  expect(with(monitor("g", "at = \"beam:0.5\"", "max-moment")), {"belongs to a member", "write `member` instead"});
   expect(with(monitor("g", "at = \"beam:0.5\"\nmember = \"beam\"", "z")), {"both `at` and `member`"});
 }
 
@@ -361,11 +361,11 @@ section.s = { shape = "general", A = 1e3, I = 0.1 }
 point = { A = [0.0, 0.0], B = [1.0, 0.0], C = [2.0, 0.0] }
 support = { A = ["x", "z", "rotation"] }
 load = [{ at = "C", force = [0.0, -1e-3] }]
-path = { step = 0.2, land = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
-wall = [{ name = "floor", side = "below", acts_on = "axis", members = ["one"], profile = { type = "flat", z = -1.0 } }]
+path = { step = 0.2, output_at = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
+wall = [{ name = "floor", side = "below", contact_surface = "axis", members = ["one"], profile = { type = "flat", z = -1.0 } }]
 [member]
-one = { from = "A", to = "B", theory = "classic", elements = 2, material = "m", section = "s" }
-two = { from = "B", to = "C", theory = "classic", elements = 2, material = "m", section = "s" }
+one = { from = "A", to = "B", theory = "euler-bernoulli", elements = 2, material = "m", section = "s" }
+two = { from = "B", to = "C", theory = "euler-bernoulli", elements = 2, material = "m", section = "s" }
 )toml";
   EXPECT_NE(said_of(two + monitor("g", "at = \"two:0.5\"\nwall = \"floor\"", "gap")).find("does not stand in the way"),
             std::string::npos);

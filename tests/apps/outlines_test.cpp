@@ -46,10 +46,10 @@ support = {{ A = ["x", "z", "rotation"] }}
 load = [{{ at = "B", force = {} }}]
 wall = [{{ name = "wall", outline = {{ {} }}, {} }}]
 monitor = [{{ name = "x", at = "B", component = "x" }}, {{ name = "z", at = "B", component = "z" }}]
-path = {{ step = 0.02, land = {{ lambda = [0.4162012388637268] }}, stop = {{ lambda = [-0.1, {}] }} }}
+path = {{ step = 0.02, output_at = {{ lambda = [0.4162012388637268] }}, stop = {{ lambda = [-0.1, {}] }} }}
 )toml",
                        point(1.0, 0.0), reversed ? "B" : "A", reversed ? "A" : "B", theory, point(0.0, -1.0), outline,
-                       more.empty() ? "acts_on = \"axis\"" : more, to);
+                       more.empty() ? "contact_surface = \"axis\"" : more, to);
   }
 
   // By how far the end has moved across, at the value that is landed on.
@@ -96,7 +96,7 @@ TEST(Outlines, TheSamePegIsOneOfManyShapes) {
     EXPECT_NEAR(touches.at(0), 0.2081006194318634, 1e-8) << outline;
     EXPECT_NEAR(strip.sag(traced), -0.07814581171568506, 1e-8) << outline;
   };
-  const std::string axis = "acts_on = \"axis\"", face = "acts_on = \"face\"";
+  const std::string axis = "contact_surface = \"axis\"", face = "contact_surface = \"face\"";
   touch_and_sag("type = \"ellipse\", centre = [0.6, -0.05], axes = [0.02, 0.02], angle = 0.3", axis);
   touch_and_sag("type = \"polyline\", x = [0.5, 0.6, 0.7], z = [-1.05, -0.05, -1.05]", face);
   touch_and_sag(
@@ -123,7 +123,7 @@ point = { A = [0.0, 0.0], B = [1.0, 0.0], T = [1.0, -0.2] }
 member.arm = { from = "A", to = "B", theory = "elastica", material = "m", section = "s", elements = 10 }
 member.hook = { from = "B", to = "T", theory = "elastica", material = "m", section = "s", elements = 2 }
 support = { A = ["x", "z", "rotation"] }
-wall = [{ name = "ramp", acts_on = "axis", corner_radius = 0.01, motion = { x = -1.0 }, outline = { type = "polyline", x = [1.2, 1.4, 1.6], z = [-0.3, -0.1, -0.3] } }]
+wall = [{ name = "ramp", contact_surface = "axis", corner_radius = 0.01, motion = { x = -1.0 }, outline = { type = "polyline", x = [1.2, 1.4, 1.6], z = [-0.3, -0.1, -0.3] } }]
 monitor = [{ name = "push", wall = "ramp", component = "force-x" }]
 path = { step = 1.0, max_step = 3.0, stop = { lambda = [-0.1, 0.45] } }
 )toml");
@@ -161,7 +161,7 @@ point = { A = [0.0, 0.0], B = [1.0, 0.0] }
 support = { A = ["x", "z", "rotation"], B = ["z"] }
 member.beam = { from = "A", to = "B", theory = "elastica", elements = 16, material = "m", section = "s" }
 load = [{ at = "B", moment = -1.0 }]
-wall = [{ name = "corner", acts_on = "axis", corner_radius = 0.05, outline = { type = "polyline", x = [1.3, 0.45, -0.2], z = [0.098, 0.03, 0.16] } }]
+wall = [{ name = "corner", contact_surface = "axis", corner_radius = 0.05, outline = { type = "polyline", x = [1.3, 0.45, -0.2], z = [0.098, 0.03, 0.16] } }]
 monitor = [{ name = "turn", at = "B", component = "rotation" }]
 path = { step = 0.1, stop = { lambda = [-1.0, 3.0] } }
 )toml");
@@ -239,9 +239,9 @@ material.m = { E = 1.0 }
 section.s = { shape = "general", A = 1.76e5, I = 1.0, height = 0.465 }
 point = { a = [0.0, 0.0], e = [0.0, 12.7], f = [15.5, 12.7], b = [15.5, 0.0] }
 support = { a = ["x", "z", "rotation"], b = ["x", "z"] }
-member.c = { from = "a", to = "e", theory = "classic", material = "m", section = "s", elements = 16 }
-member.d = { from = "e", to = "f", theory = "classic", material = "m", section = "s", elements = 16 }
-member.g = { from = "f", to = "b", theory = "classic", material = "m", section = "s", elements = 16 }
+member.c = { from = "a", to = "e", theory = "euler-bernoulli", material = "m", section = "s", elements = 16 }
+member.d = { from = "e", to = "f", theory = "euler-bernoulli", material = "m", section = "s", elements = 16 }
+member.g = { from = "f", to = "b", theory = "euler-bernoulli", material = "m", section = "s", elements = 16 }
 load = [{ at = "e", moment = 0.1386 }, { on = "d", distributed = [0.0, 0.003818], constant = true }, { at = "d:0.125", force = [0.0, 0.02842], constant = true }]
 path = { step = 0.1, stop = { lambda = [-0.5, 3.0] } }
 monitor = [{ name = "z", at = "d:0.125", component = "z" }]
@@ -250,9 +250,9 @@ wall = [{ name = "roof", corner_radius = 0.8, outline = { type = "polyline", )to
   };
   const test::TracedDeck near = beside("x = [20.0, 6.2, -4.6], z = [14.85, 13.2, 13.65]");
   const test::TracedDeck far = beside("x = [20.0, 7.0, -4.6], z = [15.2, 13.166666666666666, 13.65]");
-  const auto gathers = EventKind::contact_gathers;
-  EXPECT_LT(test::event_of(far, EventKind::contact_closes, 2).lambda,
-            test::event_of(near, EventKind::contact_closes, 2).lambda);
+  const auto gathers = EventKind::contact_shrinks;
+  EXPECT_LT(test::event_of(far, EventKind::contacts_merge).lambda,
+            test::event_of(near, EventKind::contacts_merge).lambda);
   EXPECT_NEAR(test::event_of(near, gathers).lambda, test::event_of(far, gathers).lambda, 1e-10);
   EXPECT_EQ(near.record().points.back().lambda, 3.0);
   EXPECT_NEAR(near.record().points.back().monitors[0], far.record().points.back().monitors[0], 1e-10);
@@ -275,7 +275,7 @@ point = {{ a = [0.0, 0.0], b = [{:.17g}, {:.17g}] }}
 support = {{ a = ["x", "z", "rotation"] }}
 member.c = {{ from = "a", to = "b", theory = "elastica", elements = 16, material = "m", section = "s" }}
 load = [{{ on = "c", distributed = [{:.17g}, {:.17g}] }}]
-wall = [{{ name = "ceiling", acts_on = "axis", outline = {{ type = "half-plane", point = [{:.17g}, {:.17g}], normal = [{:.17g}, {:.17g}] }} }}]
+wall = [{{ name = "ceiling", contact_surface = "axis", outline = {{ type = "half-plane", point = [{:.17g}, {:.17g}], normal = [{:.17g}, {:.17g}] }} }}]
 path = {{ step = 0.2, stop = {{ lambda = [-1.0, 27.0] }} }}
 )toml",
                                               along.x(), along.y(), 8.0 * c * across.x(), 8.0 * c * across.y(),
@@ -320,10 +320,11 @@ std::string problem_of(const std::string& deck) {
 
 TEST(Outlines, WhatTheyCannotDoIsSaid) {
   const Strip strip{};
-  const std::string faces = "acts_on = \"face\"";
-  EXPECT_NE(problem_of(strip.deck("type = \"circle\", centre = [0.5, 0.0], radius = 0.02, keep = \"inside\"", faces))
-                .find("does not fit into it"),
-            std::string::npos);
+  const std::string faces = "contact_surface = \"face\"";
+  EXPECT_NE(
+      problem_of(strip.deck("type = \"circle\", centre = [0.5, 0.0], radius = 0.02, structure = \"inside\"", faces))
+          .find("does not fit into it"),
+      std::string::npos);
   EXPECT_NE(problem_of(strip.deck("type = \"polyline\", x = [0.5, 0.6, 0.7], z = [-1.0, -0.2, -1.0]"))
                 .find("the corners of the outline are sharp"),
             std::string::npos);
@@ -347,7 +348,7 @@ section.s = {{ shape = "rectangle", width = 0.06780454806702974, height = 0.0125
 point = {{ clamp = [0.0, 0.0], tip = [1.8764310217021987, 0.0] }}
 support = {{ clamp = ["x", "z", "rotation"] }}
 load = [{{ at = "tip", moment = -6.284520997532813e-05 }}]
-path = {{ step = 0.1, landing = false, stop = {{ lambda = [-1.0, 6.9] }} }}
+path = {{ step = 0.1, jumps = false, stop = {{ lambda = [-1.0, 6.9] }} }}
 member.strip = {{ from = "clamp", to = "tip", theory = "elastica", material = "steel", section = "s", elements = 30 }}
 wall = [{{ name = "peg", {} = {{ type = "circle", centre = [0.9158244608564969, -0.3736809701065393], radius = 0.086608979312623 }} }}]
 {}
@@ -359,7 +360,7 @@ wall = [{{ name = "peg", {} = {{ type = "circle", centre = [0.9158244608564969, 
     const test::TracedDeck above = bent("side = \"below\", profile", contact);
     const BranchEnd& end = above.record().branches.back().end.value();
     EXPECT_EQ(end.reason, EndReason::wall_end);
-    EXPECT_NE(end.detail.find("an outline has one all around"), std::string::npos);
+    EXPECT_NE(end.detail.find("a closed outline has one all around"), std::string::npos);
     EXPECT_NEAR(above.record().points.back().lambda, contact.empty() ? 6.22404 : 6.08707, 1e-4);
   }
   test::expect_whole(bent("outline", ""));
@@ -375,9 +376,9 @@ section.s = {{ shape = "rectangle", width = 0.5658144514342969, height = 0.07163
 point = {{ foot = [0.0, 0.0], corner = [0.0, 4.101117927065021], end = [4.341436281473455, 4.101117927065021] }}
 support = {{ foot = ["x", "z", "rotation"], end = ["x", "z", "rotation"] }}
 load = [{{ at = "beam:0.041666666666666664", force = [0.0, -0.38629301870089927] }}]
-path = {{ step = 0.05, landing = false, stop = {{ lambda = [-1.0, 3.55] }} }}
-member.column = {{ from = "foot", to = "corner", theory = "classic", material = "steel", section = "s", elements = 24 }}
-member.beam = {{ from = "corner", to = "end", theory = "classic", material = "steel", section = "s", elements = 48 }}
+path = {{ step = 0.05, jumps = false, stop = {{ lambda = [-1.0, 3.55] }} }}
+member.column = {{ from = "foot", to = "corner", theory = "euler-bernoulli", material = "steel", section = "s", elements = 24 }}
+member.beam = {{ from = "corner", to = "end", theory = "euler-bernoulli", material = "steel", section = "s", elements = 48 }}
 wall = [{{ name = "stop", members = ["beam"], {} = {{ type = "circle", centre = [3.319576553721003, 3.3335537581040793], radius = 0.3569767408623584 }} }}]
 )toml",
                                         wall));

@@ -40,7 +40,7 @@ prescribed = [{{ at = "a", x = 0.5 }}]
 load = [{{ at = "b", moment = -0.1 }}]
 member.strip = {{ from = "{}", to = "{}", theory = "elastica", material = "m", section = "s", elements = 20 }}
 monitor = [{{ name = "end", at = "b", component = "x" }}, {{ name = "turn", at = "b", component = "rotation" }}]
-wall = [{{ name = "ceiling", side = "above", acts_on = "axis", profile = {} }}]
+wall = [{{ name = "ceiling", side = "above", contact_surface = "axis", profile = {} }}]
 [path]
 step = 0.02
 {})toml",
@@ -72,7 +72,7 @@ std::vector<Ceiling> ceilings() {
 // is half its height off it: the stop is met at λ = EA 0.1/2, and bears all that is more.
 TEST(RollerEnds, AnUprightStopTakesTheRest) {
   for (const bool on_face : {false, true})
-    for (const std::string theory : {"classic", "elastica", "truss"}) {
+    for (const std::string theory : {"euler-bernoulli", "elastica", "truss"}) {
       if (on_face && theory == "truss") continue;
       const test::TracedDeck traced(fmt::format(R"toml(
 title = "A bar against a stop"
@@ -82,14 +82,14 @@ point = {{ A = [0.0, 0.0], B = [2.0, 0.0] }}
 member.bar = {{ from = "A", to = "B", theory = "{}", material = "m", section = "s", elements = 1 }}
 support = {{ A = ["x", "z"{}], B = ["z"] }}
 load = [{{ at = "B", force = [1.0, 0.0] }}]
-wall = [{{ name = "stop", acts_on = "{}", outline = {{ type = "half-plane", point = [{}, 7.0], normal = [-1.0, 0.0] }} }}]
+wall = [{{ name = "stop", contact_surface = "{}", outline = {{ type = "half-plane", point = [{}, 7.0], normal = [-1.0, 0.0] }} }}]
 monitor = [{{ name = "force", wall = "stop", component = "force-x" }}]
 contact = {{ points = "{}" }}
 path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
 )toml",
                                                 theory, theory == "truss" ? "" : ", \"rotation\"",
                                                 on_face ? "face" : "axis", on_face ? 2.2 : 2.1,
-                                                theory == "elastica" ? "sliding" : "nodes"));
+                                                theory == "elastica" ? "moving" : "nodes"));
       const std::vector<double> touches = touches_of(traced);
       ASSERT_EQ(touches.size(), 1u);
       const double expected = theory == "truss" ? 10.0 * 1.05 * 0.5 * (1.05 * 1.05 - 1.0) : 0.5;  // Green's strain
@@ -104,7 +104,7 @@ path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
 TEST(RollerEnds, TouchWhateverCrossesTheirWay) {
   const std::string peg = R"(outline = { type = "circle", centre = [2.265831239517769, -0.25], radius = 0.3 })";
   const std::string bore =
-      R"(outline = { type = "circle", centre = [0.0, 0.25], radius = 2.1148285982556614, keep = "inside" })";
+      R"(outline = { type = "circle", centre = [0.0, 0.25], radius = 2.1148285982556614, structure = "inside" })";
   const std::string corner =
       R"(outline = { type = "polyline", x = [1.0, 2.0, 2.2], z = [-0.1, -0.1, 0.1] }, corner_radius = 0.05)";
   const std::string rise = R"(side = "below", profile = { type = "line", z = -0.42, slope = 0.2 })";
@@ -117,7 +117,7 @@ point = {{ A = [0.0, 0.0], B = [2.0, 0.0] }}
 member.bar = {{ from = "A", to = "B", theory = "elastica", material = "m", section = "s", elements = 2 }}
 support = {{ A = ["x", "z", "rotation"], B = ["z"] }}
 load = [{{ at = "B", force = [1.0, 0.0] }}]
-wall = [{{ name = "stop", acts_on = "axis", {} }}]
+wall = [{{ name = "stop", contact_surface = "axis", {} }}]
 monitor = [{{ name = "force", wall = "stop", component = "force-x" }}]
 path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
 )toml",
@@ -146,7 +146,7 @@ support = {{ a = ["z", "rotation"], b = ["z"] }}
 path = {{ step = 0.0005, stop = {{ lambda = [-0.1, 0.002] }} }}
 member.s = {{ from = "a", to = "b", theory = "elastica", material = "m", section = "s", elements = 16 }}
 prescribed = [{{ at = "a", x = 1.0 }}]
-wall = [{{ name = "stop", acts_on = "axis", outline = {{ type = "circle", centre = [{:.17g}, {:.17g}], radius = 1.5 }} }}]
+wall = [{{ name = "stop", contact_surface = "axis", outline = {{ type = "circle", centre = [{:.17g}, {:.17g}], radius = 1.5 }} }}]
 monitor = [{{ name = "push", at = "a", component = "reaction-x" }}, {{ name = "stop", wall = "stop", component = "force-x" }}]
 )toml",
                                               8.0 + 1.5 * c, -1.5 * s));
@@ -170,7 +170,7 @@ support = { a = ["z", "rotation"], b = ["z"] }
 path = { step = 0.0001, stop = { lambda = [-0.1, 0.0004] } }
 member.s = { from = "a", to = "b", theory = "elastica", material = "m", section = "s", elements = 16 }
 prescribed = [{ at = "a", x = 1.0 }]
-wall = [{ name = "stop", acts_on = "axis", interference = 0.1, outline = { type = "circle", centre = [9.498, 0.0], radius = 1.5 } }]
+wall = [{ name = "stop", contact_surface = "axis", interference = 0.1, outline = { type = "circle", centre = [9.498, 0.0], radius = 1.5 } }]
 monitor = [{ name = "push", at = "a", component = "reaction-x" }]
 )toml");
   EXPECT_NEAR(traced.record().points.front().monitors[0], 0.25, 1e-9);
@@ -187,7 +187,7 @@ TEST(RollerEnds, PassContactInsideWhereTheyBecomeTangent) {
       SCOPED_TRACE(ceiling.profile + (reversed ? " reversed" : ""));
       const test::TracedDeck traced(strip_under(ceiling, reversed, "stop = { lambda = [-0.1, 0.65] }\n"));
       EXPECT_NEAR(event_of(traced, EventKind::contact_closes).lambda, touches_at, 1e-10);
-      EXPECT_NEAR(event_of(traced, EventKind::contact_passes).lambda, ceiling.tangent_at, 1e-9);
+      EXPECT_NEAR(event_of(traced, EventKind::contact_transfers).lambda, ceiling.tangent_at, 1e-9);
       const RecordPoint& last = traced.record().points.back();
       ASSERT_DOUBLE_EQ(last.state.lambda, at_last);
       EXPECT_NEAR(last.monitors[0], ceiling.way, 1e-9);
@@ -215,7 +215,7 @@ drives = ["prescribed.0", "load.0"]
 step = -0.02
 stop = { lambda = [-0.65, 0.1] }
 )toml"));
-    EXPECT_NEAR(event_of(traced, EventKind::contact_passes, 2).lambda, ceiling.tangent_at - at_last, 1e-9);
+    EXPECT_NEAR(event_of(traced, EventKind::contact_transfers, 2).lambda, ceiling.tangent_at - at_last, 1e-9);
     EXPECT_NEAR(event_of(traced, EventKind::contact_opens).lambda, touches_at - at_last, 1e-10);
     EXPECT_DOUBLE_EQ(traced.last().lambda, -at_last);
     test::expect_whole(traced);

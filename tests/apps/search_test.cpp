@@ -31,7 +31,7 @@ step = 0.3
 branches = "primary"
 search = true
 search_at = [1.0]
-search_tries = 20
+search_guesses = 20
 stop = { lambda = [-2.0, 5.0], event = "limit-point" }
 )toml";
 
@@ -96,7 +96,7 @@ const std::vector<Expected> in_channel{
 };
 
 bool is_this(const RecordFound& found, const Expected& expected) {
-  const bool word = found.word == expected.word || found.word == reversed(expected.word);
+  const bool word = found.contact_pattern == expected.word || found.contact_pattern == reversed(expected.word);
   return word && found.unstable == expected.unstable && std::abs(found.monitors.at(1) - expected.shortening) < 1e-6 &&
          std::abs(found.energy - expected.energy) < 1e-6;
 }
@@ -148,7 +148,7 @@ TEST(Search, TracesWhatIsFoundBothWays) {
       const RecordBranch& branch = record.branches[static_cast<std::size_t>(id)];
       EXPECT_TRUE(branch.found);
       EXPECT_GT(branch.points, 2);
-      EXPECT_EQ(json["branches"][static_cast<std::size_t>(id)]["origin"], "found");
+      EXPECT_EQ(json["branches"][static_cast<std::size_t>(id)]["origin"], "search");
       const auto first = std::find_if(record.points.begin(), record.points.end(),
                                       [&](const RecordPoint& point) { return point.branch == id; });
       EXPECT_EQ(first->lambda, 1.0);
@@ -172,7 +172,7 @@ TEST(Search, CountsWhatBecameOfItsTries) {
   for (const char* outcome : {"found", "mirror_image", "known", "nodes_only", "not_found"})
     sum += at["outcomes"][outcome].get<int>();
   EXPECT_EQ(at["outcomes"].size(), 5u);
-  EXPECT_EQ(at["tries"], sum);
+  EXPECT_EQ(at["guesses"], sum);
   EXPECT_GE(sum, 20);
   EXPECT_EQ(at["found"][0]["became"], "traced");
   EXPECT_TRUE(search_json(TracedDeck(truss, {"path.search=false"}).record()).is_null());
@@ -202,7 +202,7 @@ TEST(Search, FindsNothingWhereThePathPassesAll) {
 TEST(Search, ChoosesItsValuesByThePath) {
   std::string deck = truss;
   deck.erase(deck.find("search_at"), std::string("search_at = [1.0]\n").size());
-  const TracedDeck traced(deck, {"path.search_tries=2"});
+  const TracedDeck traced(deck, {"path.search_guesses=2"});
   ASSERT_EQ(traced.record().searches.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i)
     EXPECT_NEAR(traced.record().searches[i].lambda, (0.1 + 0.2 * double(i)) * 3.7920, 1e-3);
@@ -278,7 +278,7 @@ TEST(Search, FindsTheEquilibriaOfAColumnInAChannelSlow) {
   for (const RecordFound& found : search.found)
     EXPECT_TRUE(
         std::any_of(in_channel.begin(), in_channel.end(), [&](const Expected& one) { return is_this(found, one); }))
-        << found.word << " " << found.monitors.at(1) << " " << found.energy;
+        << found.contact_pattern << " " << found.monitors.at(1) << " " << found.energy;
   for (const Expected& expected : in_channel) {
     const auto count = std::count_if(search.found.begin(), search.found.end(),
                                      [&](const RecordFound& found) { return is_this(found, expected); });
@@ -298,7 +298,7 @@ TEST(Search, FindsTheEquilibriaOfAColumnInAChannelSlow) {
 // twenty of the thick column in the example. A body of EA = 210 kN that bears some kN keeps its length but for a
 // twentieth, and an arc of 0.3 rad is 0.4 % longer than its chord.
 TEST(Search, TellsNoEquilibriumInWhichTheBodyIsCrushedSlow) {
-  const TracedDeck traced(test::example("channel"), {"path.search=true", "path.search_at=[6.1]", "path.landing=false"});
+  const TracedDeck traced(test::example("channel"), {"path.search=true", "path.search_at=[6.1]", "path.jumps=false"});
   const Record& record = traced.record();
   ASSERT_GE(record.searches.at(0).found.size(), 3u);
   constexpr double length = 2.0;

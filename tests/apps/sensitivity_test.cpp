@@ -138,7 +138,7 @@ TEST(Sensitivity, OfHeatSlow) {
 // rail lies between kinks of its ballast's law.
 TEST(Sensitivity, IsNotToldAtAKink) {
   const TracedDeck snap_fit(device("snap-fit"), {"path.sensitivity=['section.hook.height']"});
-  for (const RecordEvent& event : test::events_of(snap_fit.record(), EventKind::displacement_limit)) {
+  for (const RecordEvent& event : test::events_of(snap_fit.record(), EventKind::turning_point)) {
     EXPECT_FALSE(event.sensitivity.at(0).slope) << event.id;
     EXPECT_NE(event.sensitivity[0].why_none.find("kink"), std::string::npos) << event.id;
   }
@@ -177,7 +177,7 @@ TEST(Sensitivity, OfEveryExampleIsThatOfOtherRunsSlow) {
   for (const Case& one : cases) {
     SCOPED_TRACE(one.name + " by " + one.key);
     const std::string deck(device(one.name));
-    const auto events = located(TracedDeck(deck, {names_of({one.key}), "path.landing=false"}));
+    const auto events = located(TracedDeck(deck, {names_of({one.key}), "path.jumps=false"}));
     ASSERT_FALSE(events.empty());
     const double value = events.front().sensitivity.at(0).value, h = 1e-3 * std::abs(value);
     const std::vector<double> expected = by_runs(deck, one.key, value, h);
@@ -258,12 +258,12 @@ point = { A = [0.0, 0.0], M = [1.0, 0.0], B = [2.0, 0.0] }
 support = { A = ["x", "z"], B = ["x", "z"] }
 load = [{ at = "M", force = [0.0, -0.1] }]
 path = { step = 0.05, stop = { event = "contact-closes" } }
-member.a = { from = "A", to = "M", theory = "classic", elements = 8, material = "m", section = "s" }
-member.b = { from = "M", to = "B", theory = "classic", elements = 8, material = "m", section = "s" }
+member.a = { from = "A", to = "M", theory = "euler-bernoulli", elements = 8, material = "m", section = "s" }
+member.b = { from = "M", to = "B", theory = "euler-bernoulli", elements = 8, material = "m", section = "s" }
 contact = { points = "nodes" }
 wall = [
-  { name = "left", side = "below", acts_on = "axis", profile = { type = "parabola", apex = [0.5, -0.03], curvature = -5.0 } },
-  { name = "right", side = "below", acts_on = "axis", profile = { type = "parabola", apex = [1.5, -0.03], curvature = -5.0 } },
+  { name = "left", side = "below", contact_surface = "axis", profile = { type = "parabola", apex = [0.5, -0.03], curvature = -5.0 } },
+  { name = "right", side = "below", contact_surface = "axis", profile = { type = "parabola", apex = [1.5, -0.03], curvature = -5.0 } },
 ]
 )toml";
   const TracedDeck traced(deck, {"path.sensitivity=['wall.left.profile.apex.1','material.m.E']"});

@@ -47,7 +47,7 @@ clamp = ["x", "z", "rotation"]
          R"(
 [path]
 step = 0.1
-land = { lambda = [1.0] }
+output_at = { lambda = [1.0] }
 [path.stop]
 lambda = [-1.0, 1.0]
 [[monitor]]
@@ -69,11 +69,11 @@ component = "reaction-x"
 )";
 }
 
-const std::vector<std::pair<std::string, std::string>> theories{{"classic", ""},
+const std::vector<std::pair<std::string, std::string>> theories{{"euler-bernoulli", ""},
                                                                 {"elastica", "order = 4"},
                                                                 {"elastica", "order = 6"},
-                                                                {"exact", "order = 1"},
-                                                                {"exact", "order = 2"},
+                                                                {"reissner", "order = 1"},
+                                                                {"reissner", "order = 2"},
                                                                 {"essenburg", "order = 1\nalong = \"director\""},
                                                                 {"essenburg", "order = 2\nalong = \"director\""}};
 
@@ -110,7 +110,7 @@ TEST(Shape, TheForcesOfACantileverAreItsTipsLeverAndForce) {
 
 // The elements' law, by what an inextensible, unshearable beam would do: the axis' curvature is M/EI.
 TEST(Shape, TheMomentIsTheCurvatureTimesTheStiffness) {
-  for (const std::string theory : {"classic", "elastica"}) {
+  for (const std::string theory : {"euler-bernoulli", "elastica"}) {
     const TracedDeck traced(cantilever(theory));
     const std::vector<ShapePoint> points = shape_of(traced.model(), traced.last()).members.at(0).points;
     const double EI = 1e4 * 0.1 * 0.1 * 0.1 / 12.0;
@@ -236,14 +236,14 @@ TEST(Shape, MomentsAreThoseOfTheWallsForces) {
       }
       const auto pressed = [](const ContactMark& mark) { return mark.pressure.has_value(); };
       const bool leaves_moments =
-          points == "sliding" && std::any_of(shape.contacts.begin(), shape.contacts.end(), pressed);
+          points == "moving" && std::any_of(shape.contacts.begin(), shape.contacts.end(), pressed);
       EXPECT_LE(worst, (leaves_moments ? 4e-4 : 1e-7) * std::max(scale, 1e-6)) << points << ", lambda = " << at.lambda;
       if (::testing::Test::HasFailure()) return most;
     }
     return most;
   };
   for (const ExampleDeck& example : example_decks())
-    for (const std::string points : {"nodes", "sliding"}) {
+    for (const std::string points : {"nodes", "moving"}) {
       SCOPED_TRACE(std::string(example.name) + ", " + points);
       if (example.name == "channel") {
         EXPECT_GE(check(example.text, points, {-1.0, 0.0}, 0.0), 2u);

@@ -31,7 +31,7 @@ side = "below"
 profile = { type = "flat", z = -0.8 }
 [path]
 step = 0.02
-land = { lambda = [0.1, 1.0] }
+output_at = { lambda = [0.1, 1.0] }
 stop = { lambda = [-0.1, 1.0] }
 )" + loads +
          R"(
@@ -144,7 +144,7 @@ distributed = [0.0, 1e-6]
 [path]
 step = 0.05
 max_step = 0.05
-landing = false
+jumps = false
 stop = { lambda = [-0.1, 1.0] }
 [[monitor]]
 name = "middle"

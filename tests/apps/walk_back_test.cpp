@@ -66,7 +66,7 @@ sign = -1
 [path]
 step = 0.05
 stop = { lambda = [-1.0, 7.07], shortening = [-1.55, 5.45] }
-landing = false
+jumps = false
 )toml";
 
 }  // namespace

@@ -20,19 +20,19 @@ material.m = {{ E = 1.0 }}
 section.s = {{ shape = "general", A = 9e4, I = 1.0 }}
 point = {{ a = [0.0, 0.0], b = [1.0, 0.0] }}
 support = {{ a = ["x", "z", "rotation"] }}
-member.c = {{ from = "a", to = "b", theory = "classic", elements = {}, material = "m", section = "s", imperfection = {{ shape = "sine", amplitude = 0.001, waves = 2 }} }}
+member.c = {{ from = "a", to = "b", theory = "euler-bernoulli", elements = {}, material = "m", section = "s", imperfection = {{ shape = "sine", amplitude = 0.001, waves = 2 }} }}
 load = [{{ at = "c:0.25", force = [0.0, 3.0] }}]
-wall = [{{ name = "ceiling", side = "above", acts_on = "axis", profile = {{ type = "flat", z = 0.03 }} }}]
+wall = [{{ name = "ceiling", side = "above", contact_surface = "axis", profile = {{ type = "flat", z = 0.03 }} }}]
 path = {{ step = 0.1, stop = {{ lambda = [-0.5, 3.0] }} }}
 )toml",
                                               elements));
     const double error = elements < 24 ? 3e-7 : 1e-8;
     const auto touches = test::events_of(traced, EventKind::contact_closes);
-    const auto spreads = test::events_of(traced, EventKind::contact_spreads);
+    const auto splits = test::events_of(traced, EventKind::contact_splits);
     ASSERT_EQ(touches.size(), 1U);
-    ASSERT_EQ(spreads.size(), 1U);
+    ASSERT_EQ(splits.size(), 1U);
     EXPECT_NEAR(touches[0].lambda, 0.3493005164566812, error);
-    EXPECT_NEAR(spreads[0].lambda, 1.4630017415429288, error);
+    EXPECT_NEAR(splits[0].lambda, 1.4630017415429288, error);
     const RecordPoint& last = traced.record().points.back();
     EXPECT_EQ(last.lambda, 3.0);
     ASSERT_EQ(last.forces.size(), 2U);
@@ -63,7 +63,7 @@ path = {{ step = 0.01, stop = {{ lambda = [-0.5, 3.0] }} }}
 monitor = [{{ name = "z", at = "c:0.5833333333333334", component = "z" }}]
 )toml",
                                               elements));
-    EXPECT_NEAR(test::event_of(traced, EventKind::contact_passes).lambda, 1.107500233895, 1e-10);
+    EXPECT_NEAR(test::event_of(traced, EventKind::contact_transfers).lambda, 1.107500233895, 1e-10);
     EXPECT_TRUE(test::events_of(traced, EventKind::contact_spreads).empty());
     const RecordPoint& last = traced.record().points.back();
     EXPECT_EQ(last.lambda, 3.0);

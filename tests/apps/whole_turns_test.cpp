@@ -49,7 +49,7 @@ sign = -1
 step = 0.05
 stop = { lambda = [-2.0, 3.0], down = [-8.6012085255677, 37.271903610793366] }
 branches = "all"
-landing = false
+jumps = false
 )toml";
 
 // A strip that is bent by a push of its end, and pressed beside its middle.
@@ -90,7 +90,7 @@ step = 0.1
 stop = { mid = [-8.0, 8.0], lambda = [-10.0, 20.0] }
 search = true
 search_at = [-5.312, -1.607]
-landing = false
+jumps = false
 )toml";
 
 }  // namespace

@@ -88,7 +88,7 @@ const std::vector<Layouts>& layouts() {
 }
 
 // A beam of height 0.2 from (0, 0) to (2, 0.1), curved and wavy, clamped and loaded at both ends.
-StructureBuilder wavy_beam(bool reversed, Theory theory = Theory::classic) {
+StructureBuilder wavy_beam(bool reversed, Theory theory = Theory::euler_bernoulli) {
   StructureBuilder builder;
   const Vec2 a(0.0, 0.0), b(2.0, 0.1);
   builder.add_joint(reversed ? b : a);
@@ -196,7 +196,7 @@ const std::vector<Layouts>& layouts_with_forces() {
 TEST(SlidingContact, DerivativesAreConsistentWhereForcesActInside) {
   Numbers numbers(81);
   const auto walls = two_of(test::all_walls(false), 2);
-  for (const Theory theory : {Theory::classic, Theory::elastica})
+  for (const Theory theory : {Theory::euler_bernoulli, Theory::elastica})
     for (const bool reversed : {false, true}) {
       const SlidingModel model(beam_with_forces(reversed, theory), walls, 0.1);
       for (const Layouts& on : layouts_with_forces()) {
@@ -234,7 +234,7 @@ TEST(SlidingContact, DerivativesAreConsistentWhereAPartHandsAForceOn) {
                    {0.3, 0.65, 1.0},
                    {1, 1, 1}};
   for (const std::size_t kind : {2u, 3u})  // a parabola, a circle
-    for (const Theory theory : {Theory::classic, Theory::elastica}) {
+    for (const Theory theory : {Theory::euler_bernoulli, Theory::elastica}) {
       const SlidingModel model(beam_with_forces(false, theory), two_of(test::all_walls(false), kind), 0.1);
       const auto report = check_derivatives(model.system(), random_state(model, piece_of(model, on), numbers), 1e-6);
       EXPECT_LE(report.K, 1e-9);
@@ -302,7 +302,7 @@ AxisPlace node_of(const State& state, Index from_end = 0) {
 // z = −P S² (3 a − S)/(6 EI) before the force at a and −P a² (3 S − a)/(6 EI) behind it.
 TEST(SlidingContact, ForcesInsideElementsBendAsInABeam) {
   constexpr double P = 1e-4, a = 1.0 / 3.0;
-  for (const Theory theory : {Theory::classic, Theory::elastica}) {
+  for (const Theory theory : {Theory::euler_bernoulli, Theory::elastica}) {
     const CantileverWithForceInside beam(theory, 4, 1e4, {0.0, -P}, {0.0, 0.0});
     const State state = beam.solved({4});
     for (Index node = 1; node <= 4; ++node) {
@@ -321,7 +321,7 @@ TEST(SlidingContact, ForcesInsideElementsConvergeWithOrderFour) {
   const CantileverWithForceInside reference(Theory::elastica, 6, EA, inside, tip);
   const State exact = reference.solved({{32, 0}, 64});
   for (const auto& [theory, order] :
-       {std::pair(Theory::classic, 4), std::pair(Theory::elastica, 4), std::pair(Theory::elastica, 6)}) {
+       {std::pair(Theory::euler_bernoulli, 4), std::pair(Theory::elastica, 4), std::pair(Theory::elastica, 6)}) {
     const CantileverWithForceInside beam(theory, order, EA, inside, tip);
     std::vector<double> sizes, errors;
     for (const int elements : {8, 16, 32}) {
@@ -358,7 +358,7 @@ void expect_rates(const SlidingContact& system, const State& state) {
 // Among walls that stand still, while λ heats the beam.
 TEST(SlidingContact, KnowsTheRatesOfHeatSlow) {
   Numbers numbers(77);
-  for (const Theory theory : {Theory::classic, Theory::elastica}) {
+  for (const Theory theory : {Theory::euler_bernoulli, Theory::elastica}) {
     StructureBuilder builder = wavy_beam(false, theory);
     builder.add_thermal_strain(
         0, {.strain = {.constant = 0.02, .proportional = 0.1}, .curvature = {.constant = 0.1, .proportional = -0.2}});
@@ -378,7 +378,7 @@ TEST(SlidingContact, KnowsTheRatesOfHeatSlow) {
 // Springs along the beam go with it where the mesh slides.
 TEST(SlidingContact, DerivativesAreConsistentOnAFoundationSlow) {
   Numbers numbers(79);
-  for (const Theory theory : {Theory::classic, Theory::elastica}) {
+  for (const Theory theory : {Theory::euler_bernoulli, Theory::elastica}) {
     StructureBuilder builder = wavy_beam(false, theory);
     builder.add_foundation(0, {3.0, 5.0});
     const SlidingModel model(builder, two_of(test::all_walls(false), 2), 0.1);
@@ -398,7 +398,7 @@ TEST(SlidingContact, DerivativesAreConsistentOnAFoundationSlow) {
 // Among walls that λ moves and turns.
 TEST(SlidingContact, KnowsTheRatesOfWallsThatMoveSlow) {
   Numbers numbers(78);
-  for (const Theory theory : {Theory::classic, Theory::elastica})
+  for (const Theory theory : {Theory::euler_bernoulli, Theory::elastica})
     for (const bool on_axis : {false, true}) {
       auto walls = test::all_walls(on_axis);
       for (test::TestWall& wall : walls) wall.motion = {.way = {0.1, -0.2}, .turn = 0.1, .about = {1.0, 0.0}};

@@ -23,11 +23,11 @@ struct Beam {
 };
 
 const std::vector<Beam> beams{
-    {.name = "classic", .theory = Theory::classic},
+    {.name = "euler-bernoulli", .theory = Theory::euler_bernoulli},
     {.name = "elastica4", .theory = Theory::elastica, .order = 4},
     {.name = "elastica6", .theory = Theory::elastica, .order = 6},
-    {.name = "exact1", .theory = Theory::exact, .order = 1},
-    {.name = "exact2", .theory = Theory::exact, .order = 2},
+    {.name = "exact1", .theory = Theory::reissner, .order = 1},
+    {.name = "exact2", .theory = Theory::reissner, .order = 2},
     {.name = "essenburg1", .theory = Theory::essenburg, .order = 1},
     {.name = "essenburg2", .theory = Theory::essenburg, .order = 2},
     {.name = "essenburg2director", .theory = Theory::essenburg, .order = 2, .quadratic = QuadraticTerm::director}};

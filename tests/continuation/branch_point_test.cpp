@@ -37,7 +37,7 @@ TEST(Branching, APitchforkIsLocatedAndSymmetric) {
   EXPECT_EQ(event.unstable_before, 0);
   EXPECT_EQ(event.unstable_after, 1);
   ASSERT_NE(event.branching, nullptr);
-  EXPECT_EQ(event.branching->type, BranchType::symmetric);
+  EXPECT_EQ(event.branching->type, BranchType::pitchfork);
   EXPECT_EQ(event.branching->multiplicity, 1);
   EXPECT_NEAR(event.branching->mode.dx[0], 1.0, 1e-9);
   // The other branch leaves along the mode: λ = x² is level there.
@@ -49,7 +49,7 @@ TEST(Branching, ATranscriticalPointIsLocatedAndAsymmetric) {
   const Event event = branch_point_of(system);
   EXPECT_NEAR(event.state.lambda, 0.0, 1e-10);
   ASSERT_NE(event.branching, nullptr);
-  EXPECT_EQ(event.branching->type, BranchType::asymmetric);
+  EXPECT_EQ(event.branching->type, BranchType::transcritical);
   // x = λ; second derivatives are central differences here.
   EXPECT_NEAR(event.branching->other.dx[0] / event.branching->other.dlambda, 1.0, 1e-5);
 }

@@ -61,10 +61,10 @@ TEST(EventDetector, CountsOnlyInItsDirection) {
 
 TEST(EventDetector, CarriesItsKindAndLabelAndStopsNothing) {
   EventDetector own = passes(0.25);
-  own.kind = EventKind::displacement_limit;
+  own.kind = EventKind::turning_point;
   own.label = "mine";
   const Branch branch = along_line({own, passes(0.75)});
-  const Event event = only_event(branch, EventKind::displacement_limit);
+  const Event event = only_event(branch, EventKind::turning_point);
   EXPECT_EQ(event.label, "mine");
   EXPECT_NEAR(event.state.x[0], 0.25, 1e-10);
   EXPECT_NEAR(only_event(branch, EventKind::user).state.x[0], 0.75, 1e-10);
@@ -98,8 +98,8 @@ TEST(EventDetector, SaysHowFarRoundoffHidesItsZero) {
   };
   const Event event = only_event(along_line({rough}), EventKind::user);
   EXPECT_NEAR(event.state.x[0], 0.37, 2e-3);
-  EXPECT_GE(event.localised, 1e-6);
-  EXPECT_LE(event.localised, 2e-3);
+  EXPECT_GE(event.lambda_uncertainty, 1e-6);
+  EXPECT_LE(event.lambda_uncertainty, 2e-3);
 }
 
 }  // namespace arcwall::event_detector_test

@@ -88,7 +88,7 @@ TEST(FirstPoints, ABoundJustBehindTheWayBackIsLandedOn) {
     EXPECT_NEAR(branch.last().state.lambda, bound, landed);
     EXPECT_NEAR(system.lambda_on_span(branch.last().state.x[0]), bound, landed) << "on the span, which is not gone yet";
     if (bound > 1.001) {
-      EXPECT_TRUE(events_of(branch, EventKind::contact_gathers).empty());
+      EXPECT_TRUE(events_of(branch, EventKind::contact_shrinks).empty());
     }
     expect_equilibria(system, branch);
     expect_growing_arcs(branch);
@@ -108,7 +108,7 @@ TEST(FirstPoints, EveryTargetValueBehindATransitionIsMetOnce) {
     EXPECT_EQ(branch.end.reason, EndReason::stop);
     for (std::size_t i = 0; i < targets.size(); ++i) EXPECT_EQ(points_at(branch, targets[i]), 1) << "target " << i;
     EXPECT_EQ(events_of(branch, EventKind::contact_spreads).size(), back ? 0U : 1U);
-    EXPECT_EQ(events_of(branch, EventKind::contact_gathers).size(), back ? 1U : 0U);
+    EXPECT_EQ(events_of(branch, EventKind::contact_shrinks).size(), back ? 1U : 0U);
     expect_equilibria(system, branch);
     expect_growing_arcs(branch);
   }
@@ -242,7 +242,7 @@ TEST(FirstPoints, AFoldAtWhichAStepIsTriedAgainIsFoundOnce) {
 TEST(FirstPoints, InsertedContactsThatSeeNothingMakeNoEndlessLoop) {
   const test::BlindToy system;
   const Branch branch = trace(system, {.target_values = {stop_at_lambda(2.0)}});
-  EXPECT_EQ(branch.end.reason, EndReason::unsupported);
+  EXPECT_EQ(branch.end.reason, EndReason::not_modelled);
   EXPECT_NEAR(branch.last().state.lambda, 1.0, 1e-6);
   EXPECT_GT(system.inserted, 50);
   EXPECT_LT(system.inserted, 5000);

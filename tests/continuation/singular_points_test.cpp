@@ -57,7 +57,7 @@ void expect_events(const Branch& branch, const std::vector<Expected>& expected, 
     EXPECT_NEAR(found[i].state.lambda, expected[i].lambda, tolerance);
     EXPECT_EQ(found[i].unstable_before, expected[i].before);
     EXPECT_EQ(found[i].unstable_after, expected[i].after);
-    EXPECT_FALSE(found[i].suspected);
+    EXPECT_FALSE(found[i].unconfirmed);
   }
 }
 
@@ -207,7 +207,7 @@ TEST(DoublePoints, AColumnThatMayBuckleInTwoPlanes) {
     expect_events(branch, {{branch_point, 1.0, 0, 2}});
     const Event event = only_event(branch, branch_point);
     EXPECT_EQ(event.branching->multiplicity, 2);
-    EXPECT_EQ(event.branching->type, BranchType::undetermined);
+    EXPECT_EQ(event.branching->type, BranchType::multiple);
     ASSERT_EQ(event.branching->modes.size(), 2U);
     const Vector a = event.branching->modes[0].dx, b = event.branching->modes[1].dx;
     EXPECT_GT(std::abs(a[0] * b[1] - a[1] * b[0]), 0.9 * a.norm() * b.norm());
@@ -220,7 +220,7 @@ TEST(Touches, AreSuspected) {
       SCOPED_TRACE(testing::Message() << "steps × " << step << ", least stiffness " << least);
       const Branch branch = along_line({{.at = 0.4871, .a = least, .c = 1.0}}, step);
       const Event event = only_event(branch, branch_point);
-      EXPECT_TRUE(event.suspected);
+      EXPECT_TRUE(event.unconfirmed);
       EXPECT_NEAR(event.state.lambda, 0.4871, 1e-6);
       EXPECT_EQ(event.unstable_before, 0);
       EXPECT_EQ(event.unstable_after, 0);
@@ -232,7 +232,7 @@ TEST(Touches, AreSeenByTheStepThatEndsOnThem) {
     SCOPED_TRACE(least);
     // The steps 0.02, 0.04, 0.08, 0.16 and 0.2 end on 0.5.
     const Branch branch = along_line({{.at = 0.5, .a = least, .c = 1.0}}, 1.0);
-    EXPECT_TRUE(only_event(branch, branch_point).suspected);
+    EXPECT_TRUE(only_event(branch, branch_point).unconfirmed);
   }
 }
 
@@ -253,7 +253,7 @@ TEST(Touches, OfTheSlopeAreSuspectedLimitPoints) {
     const SmoothToy system = test::cusp(0.0);
     const Branch branch = test::trace(system, options, {.x = test::scalar(-1.0), .lambda = 1.0});
     const Event event = only_event(branch, limit_point);
-    EXPECT_TRUE(event.suspected);
+    EXPECT_TRUE(event.unconfirmed);
     EXPECT_NEAR(event.state.lambda, 0.0, 1e-10);
     EXPECT_TRUE(events_of(branch, branch_point).empty());
   }

@@ -80,7 +80,7 @@ TEST(Tracer, LoadControlStopsAtAFoldAndSaysWhy) {
   const test::SmoothToy system = test::fold();
   const TraceOptions options{.method = PathMethod::load, .target_values = {stop_at_x(-0.8)}};
   const Branch branch = trace(system, options, at(1.0, -1.0));
-  EXPECT_EQ(branch.end.reason, EndReason::turning_control);
+  EXPECT_EQ(branch.end.reason, EndReason::control_turns);
   EXPECT_LE(branch.last().state.lambda, 0.0);
   EXPECT_GE(branch.last().state.lambda, -1e-4);
   EXPECT_GE(branch.last().state.x[0], 0.0);
@@ -96,7 +96,7 @@ TEST(Tracer, DisplacementControlPassesALimitOfLambdaButNoLimitOfItsDisplacement)
 
   // On the circle x turns at (1, 0), where λ rises from −√½.
   const Branch turned = trace(test::unit_circle(), options, at(std::sqrt(0.5), -std::sqrt(0.5)));
-  EXPECT_EQ(turned.end.reason, EndReason::turning_control);
+  EXPECT_EQ(turned.end.reason, EndReason::control_turns);
   EXPECT_NEAR(turned.last().state.x[0], 1.0, 1e-4);
 }
 
@@ -150,7 +150,7 @@ TEST(Tracer, AnInflectionWithALevelTangentIsASuspectedLimitPointAtMost) {
   const Branch branch = trace(system, {.target_values = {stop_at_x(-1.0)}}, at(1.0, -1.0));
   EXPECT_EQ(branch.end.reason, EndReason::stop);
   const Event event = only_event(branch, EventKind::limit_point);
-  EXPECT_TRUE(event.suspected);
+  EXPECT_TRUE(event.unconfirmed);
   EXPECT_EQ(event.unstable_before, event.unstable_after);
 }
 
@@ -226,7 +226,7 @@ TEST(Tracer, TurningPointsOfWatchedMonitorsAreEvents) {
   const test::SmoothToy system = test::unit_circle();
   const TraceOptions options{.max_points = 500};
   const Branch branch = trace(system, options, at(std::sqrt(0.5), std::sqrt(0.5)), {{.quantity = x(), .label = "x"}});
-  const auto turns = events_of(branch, EventKind::displacement_limit);
+  const auto turns = events_of(branch, EventKind::turning_point);
   ASSERT_EQ(turns.size(), 2U);
   for (const Event& turn : turns) {
     EXPECT_EQ(turn.label, "x");
@@ -242,8 +242,8 @@ TEST(Tracer, DetectReportsAtTheEndOfTheStepAndNoneNotAtAll) {
   const Event fold = only_event(detected, EventKind::limit_point);
   EXPECT_LT(fold.state.x[0], 0.0);
   EXPECT_GT(fold.state.x[0], -0.25);
-  EXPECT_GT(fold.localised, 1e-6);
-  EXPECT_GE(fold.localised, -fold.state.lambda) << "the fold at λ = 0 lies within";
+  EXPECT_GT(fold.lambda_uncertainty, 1e-6);
+  EXPECT_GE(fold.lambda_uncertainty, -fold.state.lambda) << "the fold at λ = 0 lies within";
   const Branch silent = trace(system, {.target_values = {stop_at_x(-0.8)}, .events = EventSearch::none}, at(1.0, -1.0));
   EXPECT_TRUE(events_of(silent, EventKind::limit_point).empty());
   EXPECT_NEAR(silent.last().state.x[0], -0.8, 1e-12);
@@ -397,7 +397,7 @@ TEST(Tracer, EndsAtACornerThatNoRayLeaves) {
   Tracer tracer(system, {.x = Vector::Zero(2), .lambda = 0.0, .piece = {0, 0}}, {});
   while (tracer.next()) {
   }
-  EXPECT_EQ(tracer.end()->reason, EndReason::no_ray);
+  EXPECT_EQ(tracer.end()->reason, EndReason::no_continuation);
 }
 
 TEST(Tracer, ANumberOfClosedContactsEndsTheBranch) {

@@ -84,10 +84,10 @@ TEST(AxisLoad, RatesAreConsistent) {
 
 TEST(AxisLoad, OnAStraightBeamIsTheLoadTurned) {
   const Vec2 t(0.6, 0.8), turned = load.x() * t + load.y() * perp(t);
-  const test::BeamTheory theories[] = {{.theory = Theory::classic},
+  const test::BeamTheory theories[] = {{.theory = Theory::euler_bernoulli},
                                        {.theory = Theory::elastica, .order = 6},
-                                       {.theory = Theory::exact, .order = 1},
-                                       {.theory = Theory::exact, .order = 2}};
+                                       {.theory = Theory::reissner, .order = 1},
+                                       {.theory = Theory::reissner, .order = 2}};
   for (const test::BeamTheory& theory : theories)
     EXPECT_LE((nodal_forces(theory, LoadFrame::member, load) - nodal_forces(theory, LoadFrame::global, turned)).norm(),
               1e-13);

@@ -21,8 +21,8 @@ struct BeamKind {
   int order;
 };
 
-constexpr BeamKind beam_kinds[] = {{Theory::classic, 2},  {Theory::elastica, 4}, {Theory::elastica, 6},
-                                   {Theory::exact, 1},    {Theory::exact, 2},    {Theory::essenburg, 1},
+constexpr BeamKind beam_kinds[] = {{Theory::euler_bernoulli, 2}, {Theory::elastica, 4}, {Theory::elastica, 6},
+                                   {Theory::reissner, 1},        {Theory::reissner, 2}, {Theory::essenburg, 1},
                                    {Theory::essenburg, 2}};
 
 std::string name_of(const BeamKind& kind) {
@@ -149,8 +149,8 @@ TEST(MovedSupport, DerivativesAreConsistentWhateverTheTheory) {
 // beam shears (Timoshenko). Rounding and the geometry's nonlinearity are of the order 1e-9.
 TEST(MovedSupport, OfAClampedBeamHasTheForcesOfSlopeDeflection) {
   const double EI = 3.0, L = 2.0, delta = 1e-5, GA = 500.0;
-  for (const BeamKind& kind : {BeamKind{Theory::classic, 2}, BeamKind{Theory::elastica, 4},
-                               BeamKind{Theory::elastica, 6}, BeamKind{Theory::exact, 2}}) {
+  for (const BeamKind& kind : {BeamKind{Theory::euler_bernoulli, 2}, BeamKind{Theory::elastica, 4},
+                               BeamKind{Theory::elastica, 6}, BeamKind{Theory::reissner, 2}}) {
     SCOPED_TRACE(name_of(kind));
     StructureBuilder builder = plain_beam(kind, 1000.0, EI, L, 6, GA);
     clamp(builder, 0);
@@ -158,7 +158,7 @@ TEST(MovedSupport, OfAClampedBeamHasTheForcesOfSlopeDeflection) {
     builder.fix(builder.shared_rotation(1).value());
     const auto structure = builder.build();
     const State moved = test::solved_at(*structure, rest(*structure), 1.0, 1);
-    const double softer = kind.theory == Theory::exact ? 1.0 + 12.0 * EI / (GA * L * L) : 1.0;
+    const double softer = kind.theory == Theory::reissner ? 1.0 + 12.0 * EI / (GA * L * L) : 1.0;
     const double force = 12.0 * EI * delta / (L * L * L * softer), moment = 6.0 * EI * delta / (L * L * softer);
     const auto rotation = [&](std::size_t at) { return structure->members()[0].rotations[at].value(); };
     EXPECT_NEAR(structure->reaction(moved, structure->freedom(1, Freedom::z)), force, 1e-7 * force);
@@ -174,7 +174,7 @@ TEST(MovedSupport, OfAClampedBeamHasTheForcesOfSlopeDeflection) {
 // forces 6EI/L².
 TEST(MovedSupport, TurnsTheEndOfAClampedBeam) {
   const double EI = 3.0, L = 2.0, angle = 1e-5;
-  StructureBuilder builder = plain_beam({Theory::classic, 2}, 1000.0, EI, L, 5);
+  StructureBuilder builder = plain_beam({Theory::euler_bernoulli, 2}, 1000.0, EI, L, 5);
   clamp(builder, 0);
   builder.fix(builder.freedom(1, Freedom::z));
   builder.fix(builder.shared_rotation(1).value(), {.proportional = angle});
@@ -280,7 +280,7 @@ TEST(MovedSupport, DoesTheWorkOfItsReaction) {
 }
 
 TEST(MovedSupport, ConstantValuesAreAppliedByTheRamp) {
-  const StructureBuilder builder = moved_and_sprung({Theory::classic, 2});
+  const StructureBuilder builder = moved_and_sprung({Theory::euler_bernoulli, 2});
   const auto whole = builder.build(), ramp = builder.build(true);
   const Vector x = 0.1 * test::Numbers(84).vector(whole->size({}));
   Vector F(x.size()), G(x.size());
@@ -300,7 +300,7 @@ struct SprungCantilever {
   static constexpr double EI = 3.0, L = 2.0, tip = 0.9, root = 8.0, P = 1e-6;
 
   static StructureBuilder builder() {
-    StructureBuilder builder = plain_beam({Theory::classic, 2}, 1000.0, EI, L, 6);
+    StructureBuilder builder = plain_beam({Theory::euler_bernoulli, 2}, 1000.0, EI, L, 6);
     builder.fix(builder.freedom(0, Freedom::x));
     builder.fix(builder.freedom(0, Freedom::z));
     builder.add_ground_stiffness(builder.shared_rotation(0).value(), root);
@@ -353,7 +353,7 @@ TEST(GroundStiffness, IsListedBesideK) {
 TEST(GroundStiffness, KeepsItsDigitsOnALongChain) {
   const int elements = 40000;
   for (const bool on_springs : {false, true}) {
-    StructureBuilder builder = plain_beam({Theory::classic, 2}, 12.0, 1.0, 1.0, elements);
+    StructureBuilder builder = plain_beam({Theory::euler_bernoulli, 2}, 12.0, 1.0, 1.0, elements);
     const Index middle = builder.freedom(builder.mesh(0).nodes[elements / 2], Freedom::z);
     const double k = 20.0;
     if (on_springs) {
@@ -456,7 +456,7 @@ TEST(SpringBetween, StiffensAHinge) {
 // A column with a spring and a support inside, and a girder; feet and inner support move. Both meshes give one
 // equilibrium, far from rest.
 TEST(NodalTerms, AreThoseOfTheFixedMeshWhereItSlides) {
-  for (const BeamKind& kind : {BeamKind{Theory::classic, 2}, BeamKind{Theory::elastica, 4}}) {
+  for (const BeamKind& kind : {BeamKind{Theory::euler_bernoulli, 2}, BeamKind{Theory::elastica, 4}}) {
     SCOPED_TRACE(name_of(kind));
     StructureBuilder builder;
     const Vec2 at[] = {{0.0, 0.0}, {0.2, 3.0}, {4.0, 3.0}};
@@ -553,7 +553,7 @@ class Actuator final : public DrivenElement {
 
 // The tip of a cantilever and a support above it.
 StructureBuilder pulled_cantilever(double q, double EI, double L) {
-  StructureBuilder builder = plain_beam({Theory::classic, 2}, 1000.0, EI, L, 5);
+  StructureBuilder builder = plain_beam({Theory::euler_bernoulli, 2}, 1000.0, EI, L, 5);
   clamp(builder, 0);
   builder.add_element(std::make_shared<Actuator>(2.0, 1e-5, q),
                       {builder.freedom(0, Freedom::z), builder.freedom(1, Freedom::z)});

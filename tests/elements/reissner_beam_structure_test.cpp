@@ -38,7 +38,7 @@ struct Cantilever {
                                              .to = tip,
                                              .axis = std::move(axis),
                                              .imperfection = imperfection,
-                                             .theory = Theory::exact,
+                                             .theory = Theory::reissner,
                                              .order = order,
                                              .section = section(stiffness),
                                              .elements = elements});
@@ -235,7 +235,7 @@ TEST(ExactBeamStructure, MechanismsAreFoundHoweverThinAndFine) {
                             .from = left,
                             .to = right,
                             .axis = straight_axis({0.0, 0.0}, {0.6, 0.8}),
-                            .theory = Theory::exact,
+                            .theory = Theory::reissner,
                             .order = order,
                             .section = section({.EA = 1.0, .GA = 0.3, .EI = thickness * thickness / 12.0}),
                             .elements = order == 1 ? 1 : 40});

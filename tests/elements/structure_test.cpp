@@ -116,8 +116,8 @@ TEST(Structure, ParallelMotionsExertNoForceOnWhatIsAfloat) {
 // The first and the last of five elements are held; nodes inside an element are as free as those between two.
 TEST(Structure, ParallelMotionsExertNoForceWhateverTheTheory) {
   const std::tuple<Theory, int, std::size_t> cases[] = {
-      {Theory::classic, 2, 2}, {Theory::elastica, 4, 2},  {Theory::elastica, 6, 2}, {Theory::exact, 1, 2},
-      {Theory::exact, 2, 5},   {Theory::essenburg, 1, 2}, {Theory::essenburg, 2, 5}};
+      {Theory::euler_bernoulli, 2, 2}, {Theory::elastica, 4, 2},  {Theory::elastica, 6, 2}, {Theory::reissner, 1, 2},
+      {Theory::reissner, 2, 5},        {Theory::essenburg, 1, 2}, {Theory::essenburg, 2, 5}};
   for (const auto& [theory, order, expected] : cases) {
     SCOPED_TRACE("theory " + std::to_string(static_cast<int>(theory)) + ", order " + std::to_string(order));
     StructureBuilder builder;

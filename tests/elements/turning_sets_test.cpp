@@ -82,7 +82,8 @@ constexpr double roundoff = 1e-12;
 }  // namespace
 
 TEST(TurningSets, AreSingleRotationsOfSlenderMembers) {
-  for (const auto& [theory, order] : {std::pair(Theory::classic, 2), {Theory::elastica, 4}, {Theory::elastica, 6}}) {
+  for (const auto& [theory, order] :
+       {std::pair(Theory::euler_bernoulli, 2), {Theory::elastica, 4}, {Theory::elastica, 6}}) {
     Frame described = frame(theory, order);
     load(described);
     const auto structure = described.builder.build();
@@ -99,7 +100,7 @@ TEST(TurningSets, AreSingleRotationsOfSlenderMembers) {
 // The exact theory interpolates rotations: all of a frame turn together.
 TEST(TurningSets, AreAllRotationsTogetherOfExactMembers) {
   for (const int order : {1, 2}) {
-    const auto structure = frame(Theory::exact, order).builder.build();
+    const auto structure = frame(Theory::reissner, order).builder.build();
     const State state = somewhere(*structure);
     const auto sets = by_set(structure->turning_sets({}));
     ASSERT_EQ(sets.size(), 1u);
@@ -128,7 +129,7 @@ TEST(TurningSets, LeaveOutWhatASpringOrASupportCounts) {
   EXPECT_GT(change_by_a_turn(*structure, state, {structure->unknown(foot).value()}), 1.0);
   for (const auto& [set, unknowns] : by_set(sets)) EXPECT_LT(change_by_a_turn(*structure, state, unknowns), roundoff);
 
-  Frame exact = frame(Theory::exact, 1);
+  Frame exact = frame(Theory::reissner, 1);
   exact.builder.fix(exact.builder.shared_rotation(2).value());
   EXPECT_TRUE(by_set(exact.builder.build()->turning_sets({})).empty());
 }

@@ -16,7 +16,7 @@ NUMBERS = ["0", "1", "3", "-1", "1e400", "nan", "inf", "-0", "0x10", "1e-300", "
 TEXTS = ["x", "=1", "-", "--", "\u202e", "a b", "/dev/null", "..", "results", "a" * 5000, "%s%n", "\x1b[2J", "[1", "{}", "'"]
 SETS = ["path.step=1.0", "path.max_points=3", "path.step=x", "path.step=", "=1", "x", "a.b.c.d=1", "load.0.force=[0,-1]",
         "load.9.force=[0,-1]", "material.bar.E=0", "material.bar.E=[1]", "path.stop={}", "title='t'", "title=1", "path=3",
-        "path.landing=true", "path.search=true", "member={}", "point.a=[nan,0]", "load=[]", "wall=[]", "path.method='arc'"]
+        "path.jumps=true", "path.search=true", "member={}", "point.a=[nan,0]", "load=[]", "wall=[]", "path.method='arc'"]
 RUN = {"--out": TEXTS, "--set": SETS, "--max-points": NUMBERS, "--max-time": NUMBERS, "--checkpoint-pause": NUMBERS,
        "--scratch": None, "--json": None, "--no-pictures": None, "--quiet": None, "--force": None, "--verbose": None,
        "--dry-run": None, "--no-units": None}

@@ -33,7 +33,7 @@ const std::vector<nlohmann::json>& kept_runs() {
       kept("truss", {}, 6),
       kept("channel", {"member.column.elements=4"}, 12),
       kept("channel", {"member.column.elements=4", "contact.points=\"nodes\"", "path.branches=\"all\""}, 12),
-      kept("foundation", {"member.beam.elements=4", "path.method=\"incremental\"", "path.land={lambda=[0.5]}"}, 4),
+      kept("foundation", {"member.beam.elements=4", "path.method=\"incremental\"", "path.output_at={lambda=[0.5]}"}, 4),
   };
   return runs;
 }

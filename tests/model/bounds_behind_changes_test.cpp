@@ -23,7 +23,7 @@ units = { length = "cm", force = "kN" }
 material.steel = { E = 2.1e4 }
 section.square = { shape = "rectangle", width = 0.2, height = 0.2 }
 point = { left = [0.0, 0.0], right = [2.0, 0.0] }
-member.beam = { from = "left", to = "right", theory = "classic", material = "steel", section = "square", elements = 40 }
+member.beam = { from = "left", to = "right", theory = "euler-bernoulli", material = "steel", section = "square", elements = 40 }
 support = { left = ["x", "z"], right = ["z"] }
 load = [{ at = "left", moment = -1.0 }, { at = "right", moment = 1.0 }]
 wall = [{ name = "foundation", side = "below", profile = { type = "flat", z = -0.18 } }]
@@ -37,7 +37,7 @@ title = "guided beam on a parabola floor"
 material.steel = { E = 2.1e4 }
 section.s = { shape = "rectangle", width = 1.47, height = 0.494 }
 point = { left = [0.0, 0.0], right = [14.24, 0.0] }
-member.beam = { from = "left", to = "right", theory = "classic", material = "steel", section = "s", elements = 24 }
+member.beam = { from = "left", to = "right", theory = "euler-bernoulli", material = "steel", section = "s", elements = 24 }
 support = { left = ["x", "z", "rotation"], right = ["z", "rotation"] }
 load = [{ on = "beam", distributed = [0.0, -2.86] }]
 path = { step = 0.1, stop = { lambda = [-1.0, 4.36] } }
@@ -132,7 +132,7 @@ TEST(BoundsBehindChanges, ABoundOfAMonitorBehindContactSpreadsEndsThePath) {
 TEST(BoundsBehindChanges, PointsBehindContactSpreadsLieOnTheCurveOfAFineMesh) {
   const std::vector<double> values{1.3431, 1.344, 1.346, 1.35, 1.355};
   const auto with = [](int elements) {
-    return traced(foundation, {"path.land.lambda=[1.3431, 1.344, 1.346, 1.35, 1.355]", up_to(1.5),
+    return traced(foundation, {"path.output_at.lambda=[1.3431, 1.344, 1.346, 1.35, 1.355]", up_to(1.5),
                                "member.beam.elements=" + std::to_string(elements)});
   };
   const Traced coarse = with(40), fine = with(160);

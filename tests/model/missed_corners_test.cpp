@@ -115,7 +115,7 @@ support = {{ a = [{}], b = [{}] }}
 load = [{{ at = "top", force = [0.0, {}] }}]
 wall = [{{ name = "floor", side = "below", profile = {} }}]
 monitor = [{{ name = "down", at = "top", component = "z", sign = -1 }}]
-path = {{ step = 0.05, landing = false, stop = {{ lambda = [-3.0, 3.0], down = [{}, {}] }} }}
+path = {{ step = 0.05, jumps = false, stop = {{ lambda = [-3.0, 3.0], down = [{}, {}] }} }}
 member.west = {{ from = "a", to = "top", {}
 member.east = {{ from = "top", to = "b", {}
 )toml",
@@ -148,7 +148,7 @@ TEST(MissedCorners, AreNotMetAgainOnTheMeshOfTheNextContact) {
   for (const int elements : {8, 16}) {
     SCOPED_TRACE(elements);
     const Session run = test::traced(other_toggle(
-        "classic", elements, 1.6465135765332648, 0.14041026155152456, 0.06942415972630128, 0.0204928075949813,
+        "euler-bernoulli", elements, 1.6465135765332648, 0.14041026155152456, 0.06942415972630128, 0.0204928075949813,
         0.0006492107602322756, R"({ type = "line", z = -0.09653971229372402, slope = -0.0033858908675705804 })"));
     const auto closes = events_of(run, EventKind::contact_closes);
     ASSERT_EQ(closes.size(), 2U);

@@ -39,7 +39,7 @@ path = { step = 0.001, stop = { lambda = [-0.06, 0.06] } }
 [member.beam]
 from = "left"
 to = "right"
-theory = "classic"
+theory = "euler-bernoulli"
 material = "steel"
 section = "bar"
 imperfection = { shape = "sine", amplitude = -0.1, waves = 1 }
@@ -90,8 +90,8 @@ point = { left = [0.0, 0.0], middle = [8.0, 0.0], right = [20.0, 0.0] }
 support = { left = ["x", "z"], right = ["z"] }
 load = [{ at = "middle", force = [0.0, -0.01] }]
 path = { step = 0.1, stop = { lambda = [-1.0, 1.0] } }
-member.a = { from = "left", to = "middle", theory = "classic", material = "steel", section = "bar", elements = 4 }
-member.b = { from = "middle", to = "right", theory = "classic", material = "steel", section = "bar", elements = 6 }
+member.a = { from = "left", to = "middle", theory = "euler-bernoulli", material = "steel", section = "bar", elements = 4 }
+member.b = { from = "middle", to = "right", theory = "euler-bernoulli", material = "steel", section = "bar", elements = 6 }
 wall = [{ name = "floor", side = "below", profile = { type = "flat", z = -5.0 } }]
 monitor = [
   { name = "joint-turns", at = "middle", component = "rotation" },
@@ -137,8 +137,8 @@ TEST(Model, RefusesSizesWhoseStiffnessIsBeyondNumbers) {
 TEST(Model, RefusesAnImperfectionAsLargeAsItsMember) {
   const auto with_amplitude = [](const std::string& amplitude) {
     return deck::replaced(
-        deck::column_deck, "theory = \"classic\"",
-        "theory = \"classic\"\nimperfection = { shape = \"sine\", amplitude = " + amplitude + ", waves = 3 }");
+        deck::column_deck, "theory = \"euler-bernoulli\"",
+        "theory = \"euler-bernoulli\"\nimperfection = { shape = \"sine\", amplitude = " + amplitude + ", waves = 3 }");
   };
   ASSERT_TRUE(problems_of(with_amplitude("-0.2")).empty());
   for (const char* amplitude : {"2.0", "-7.2e307"}) {
@@ -152,7 +152,7 @@ TEST(Model, RefusesAnImperfectionAsLargeAsItsMember) {
 // So is its length, against the height of the section.
 TEST(Model, RefusesAnElementWithoutLengthBesideItsHeight) {
   const std::string deck = deck::replaced(deck::replaced(deck::column_deck, "E = 2.1e4", "E = 2.1e4\nnu = 0.3"),
-                                          "theory = \"classic\"", "theory = \"essenburg\"");
+                                          "theory = \"euler-bernoulli\"", "theory = \"essenburg\"");
   ASSERT_TRUE(problems_of(deck).empty());
   const auto found = problems_of(deck::replaced(deck, "B = [2.0, 0.0]", "B = [2e-22, 0.0]"));
   ASSERT_EQ(found.size(), 1u);
@@ -162,7 +162,7 @@ TEST(Model, RefusesAnElementWithoutLengthBesideItsHeight) {
 // The shear stiffness is looked at where there is one.
 TEST(Model, RefusesAShearStiffnessBeyondNumbers) {
   const std::string deck = deck::replaced(deck::replaced(deck::column_deck, "E = 2.1e4", "E = 2.1e4\nnu = 0.3"),
-                                          "theory = \"classic\"", "theory = \"exact\"");
+                                          "theory = \"euler-bernoulli\"", "theory = \"reissner\"");
   ASSERT_TRUE(problems_of(deck).empty());
   const std::string soft = deck::replaced(deck, "height = 0.2", "height = 0.2\nshear_correction = 1e-200");
   const std::string none = deck::replaced(soft, "E = 2.1e4", "E = 1e-200");  // the product is zero
@@ -253,12 +253,13 @@ section.bar = { shape = "rectangle", width = 1.0, height = 0.1 }
 point = { left = [0.0, 0.0], right = [20.0, 0.0] }
 support = { left = ["x", "z"], right = ["x", "z"] }
 load = [{ at = "beam:0.5", force = [0.0, -1.0] }]
-member.beam = { from = "left", to = "right", theory = "classic", material = "steel", section = "bar", elements = 4 }
+member.beam = { from = "left", to = "right", theory = "euler-bernoulli", material = "steel", section = "bar", elements = 4 }
 monitor = [{ name = "w", at = "beam:0.5", component = "z" }]
 )toml" + path;
     return Model(deck::read_deck_text(text, "beam.toml", {})).warnings();
   };
-  for (const char* endless : {"", "path = { step = 0.1 }", "path = { land = { lambda = [0.4] } }", "path.stop = {}"}) {
+  for (const char* endless :
+       {"", "path = { step = 0.1 }", "path = { output_at = { lambda = [0.4] } }", "path.stop = {}"}) {
     ASSERT_EQ(warnings(endless).size(), 1u) << endless;
     EXPECT_NE(warnings(endless)[0].find("path.max_points = 5000, the default"), std::string::npos)
         << warnings(endless)[0];
@@ -266,7 +267,7 @@ monitor = [{ name = "w", at = "beam:0.5", component = "z" }]
   for (const char* bounded :
        {"path = { max_points = 5000 }", "path.stop = { lambda = [-1.0, 10.0] }", "path.stop = { w = [-1.0, 10.0] }",
         "path.stop = { contacts = 2 }", "path.stop = { event = \"limit-point\" }",
-        "path = { method = \"incremental\", land = { lambda = [0.4] } }"})
+        "path = { method = \"incremental\", output_at = { lambda = [0.4] } }"})
     EXPECT_TRUE(warnings(bounded).empty()) << bounded;
 }
 

@@ -23,7 +23,7 @@ section.s = { shape = "rectangle", width = 0.2, height = 0.033 }
 point = { left = [0.0, 0.0], right = [2.4, 0.0] }
 support = { left = ["x", "z"], right = ["z"] }
 load = [{ at = "right", force = [-0.0216, 0.0] }]
-wall = [{ name = "upper", side = "above", profile = { type = "flat", z = 0.078 }, acts_on = "axis" }]
+wall = [{ name = "upper", side = "above", profile = { type = "flat", z = 0.078 }, contact_surface = "axis" }]
 monitor = [{ name = "mid", at = "column:0.5", component = "z" }]
 path = { stop = { lambda = [-1.0, 3.0] } }
 [member.column]

@@ -37,11 +37,11 @@ monitor = [
   { name = "east", at = "east", component = "x" },
 ]
 [member]
-nw = { from = "top", to = "west", via = [-35.3553390593, 35.3553390593], theory = "classic", material = "steel", section = "strip", elements = 16 }
-bottom = { from = "west", to = "east", via = [0.0, -50.0], theory = "classic", material = "steel", section = "strip", elements = )toml" +
+nw = { from = "top", to = "west", via = [-35.3553390593, 35.3553390593], theory = "euler-bernoulli", material = "steel", section = "strip", elements = 16 }
+bottom = { from = "west", to = "east", via = [0.0, -50.0], theory = "euler-bernoulli", material = "steel", section = "strip", elements = )toml" +
          std::to_string(of_bottom) + R"toml( }
-ne = { from = "top", to = "east", via = [35.3553390593, 35.3553390593], theory = "classic", material = "steel", section = "strip", elements = 16 }
-soft = { from = "sky", to = "top", theory = "classic", hinge = ["from", "to"], material = "soft", section = "spring", elements = 1 }
+ne = { from = "top", to = "east", via = [35.3553390593, 35.3553390593], theory = "euler-bernoulli", material = "steel", section = "strip", elements = 16 }
+soft = { from = "sky", to = "top", theory = "euler-bernoulli", hinge = ["from", "to"], material = "soft", section = "spring", elements = 1 }
 )toml";
 }
 
@@ -56,7 +56,7 @@ TEST(PitchforkAtACorner, IsAnEventWhereStabilityIsLostWithANewFlatPart) {
   EXPECT_EQ(spreads.unstable_before, 0);
   EXPECT_EQ(spreads.unstable_after, 0);
   EXPECT_EQ(pitchfork.lambda, spreads.lambda);
-  EXPECT_EQ(pitchfork.branch_type, BranchType::symmetric);
+  EXPECT_EQ(pitchfork.branch_type, BranchType::pitchfork);
   EXPECT_EQ(pitchfork.unstable_before, 0);
   EXPECT_EQ(pitchfork.unstable_after, 1);
   EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop);
@@ -87,9 +87,9 @@ TEST(PitchforkAtACorner, IsLeftAlongTheStableBranchSlow) {
     const Session run = traced("0.0", {}, of_bottom);
     const Record& record = run.record();
     ASSERT_EQ(record.branches.size(), 2u);
-    EXPECT_EQ(record.branches.front().end->reason, EndReason::branched);
+    EXPECT_EQ(record.branches.front().end->reason, EndReason::switched_branch);
     EXPECT_EQ(record.branches.back().end->reason, EndReason::stop);
-    EXPECT_TRUE(record.branches.back().mirrored);
+    EXPECT_TRUE(record.branches.back().mirror_image);
     const RecordEvent& pitchfork = test::event_of(record, EventKind::branch_point);
     EXPECT_NEAR(pitchfork.lambda, 190.05204, 2e-3);
     EXPECT_EQ(pitchfork.branches, std::vector<Index>{1});
@@ -109,8 +109,8 @@ TEST(PitchforkAtACorner, LeavesBothWaysWhereAllAreTraced) {
 
 // The structure follows the branch: nothing falls.
 TEST(PitchforkAtACorner, IsNoFall) {
-  const Session run = traced("0.0", {"path.landing=true"});
-  EXPECT_EQ(test::event_of(run.record(), EventKind::branch_point).landing, nullptr);
+  const Session run = traced("0.0", {"path.jumps=true"});
+  EXPECT_EQ(test::event_of(run.record(), EventKind::branch_point).jump, nullptr);
 }
 
 // A checkpoint may be written between the branch point and the corner, or before the branch's first step.
@@ -118,7 +118,7 @@ TEST(PitchforkAtACorner, IsLeftBehindACheckpointToo) {
   for (const int of_bottom : {24, 32}) {
     SCOPED_TRACE(of_bottom);
     const std::string deck = ring("0.0", of_bottom);
-    const std::vector<std::string> short_path{"path.landing=false", "path.stop.down=[-0.1, 30.0]"};
+    const std::vector<std::string> short_path{"path.jumps=false", "path.stop.down=[-0.1, 30.0]"};
     Session whole({.deck = "deck.toml", .deck_text = deck, .assignments = short_path});
     ASSERT_TRUE(whole.begin());
     std::vector<std::string> checkpoints;

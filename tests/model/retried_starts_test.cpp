@@ -91,7 +91,7 @@ height = 0.366
 [member.column]
 from = "left"
 to = "right"
-theory = "classic"
+theory = "euler-bernoulli"
 material = "steel"
 section = "s"
 elements = 68
@@ -190,7 +190,8 @@ TEST(RetriedStarts, ThePathDoesNotTurnRound) {
     EXPECT_EQ(kinds_of(along_the_wall, {longest, "path.stop.shortening=[-2.97, 4.6]"}), expected) << longest;
 }
 
-// A limit point and a suspected branch point were found between the two branches, on neither, and the path ended there.
+// A limit point and a unconfirmed branch point were found between the two branches, on neither, and the path ended
+// there.
 TEST(RetriedStarts, ABranchThatPassesByIsNotEntered) {
   using enum EventKind;
   const std::vector<EventKind> expected{start, contact_closes, limit_point, contact_opens};

@@ -36,8 +36,8 @@ void PrintTo(const Structure& structure, std::ostream* out) { *out << structure.
 // Beside the structure.
 std::string flat_walls(double height, double distance) {
   return fmt::format(R"toml(
-wall = [{{ name = "up", side = "above", acts_on = "axis", profile = {{ type = "flat", z = {} }} }},
-        {{ name = "low", side = "below", acts_on = "axis", profile = {{ type = "flat", z = {} }} }}]
+wall = [{{ name = "up", side = "above", contact_surface = "axis", profile = {{ type = "flat", z = {} }} }},
+        {{ name = "low", side = "below", contact_surface = "axis", profile = {{ type = "flat", z = {} }} }}]
 )toml",
                      height + distance, -distance);
 }
@@ -95,17 +95,17 @@ load = [{ at = "b", force = [0.0, -1.0] }, { at = "c", force = [0.0, -1.0] }]
 }
 
 std::vector<Structure> structures() {
-  Structure exact = column("pinned", R"(a = ["x", "z"], b = ["z"])", pi * pi, "exact", 24, 1e-5);
+  Structure exact = column("pinned", R"(a = ["x", "z"], b = ["z"])", pi * pi, "reissner", 24, 1e-5);
   exact.flexibility = 1.0 - 2.0 * (1.0 + 0.25) * 6.0 / 5.0;
   const double pinned_clamped = 20.190728556426629;  // tan k = k
   const std::string pinned = R"(a = ["x", "z"], b = ["z"])",
                     clamped = R"(a = ["x", "z", "rotation"], b = ["z", "rotation"])",
                     propped = R"(a = ["x", "z", "rotation"], b = ["z"])", free = R"(a = ["x", "z", "rotation"])";
   return {column("pinned", pinned, pi * pi, "elastica", 16, 1e-6),
-          column("pinned", pinned, pi * pi, "classic", 64, 1e-5),
+          column("pinned", pinned, pi * pi, "euler-bernoulli", 64, 1e-5),
           exact,
           column("clamped", clamped, 4.0 * pi * pi, "elastica", 24, 1e-6),
-          column("clamped", clamped, 4.0 * pi * pi, "classic", 64, 1e-5),
+          column("clamped", clamped, 4.0 * pi * pi, "euler-bernoulli", 64, 1e-5),
           column("propped", propped, pinned_clamped, "elastica", 24, 1e-6),
           column("cantilever", free, 0.25 * pi * pi, "elastica", 12, 1e-6),
           stepped_column(),
@@ -173,11 +173,11 @@ wall = [
   { name = "upper", side = "above", profile = { type = "flat", z = 0.2 } },
   { name = "lower", side = "below", profile = { type = "flat", z = -0.2 } },
 ]
-path = { step = 0.05, landing = false, stop = { lambda = [-1.0, 9.0] } }
+path = { step = 0.05, jumps = false, stop = { lambda = [-1.0, 9.0] } }
 [member.column]
 from = "left"
 to = "right"
-theory = "classic"
+theory = "euler-bernoulli"
 material = "steel"
 section = "square"
 elements = 4

@@ -14,7 +14,7 @@ namespace {
 
 struct Column {
   int elements = 40;
-  std::string theory = "classic";
+  std::string theory = "euler-bernoulli";
   bool mirrored = false;  // in the x-axis
   bool reversed = false;  // the member runs from the right end to the left one
 };
@@ -77,12 +77,12 @@ TEST(SplinePoints, APartOpensAndClosesWhereItsEdgeComesToOne) {
     std::vector<EventKind> kinds;
     for (const RecordEvent& event : run.events()) kinds.push_back(event.kind);
     const std::vector<EventKind> expected{EventKind::start, EventKind::contact_closes, EventKind::contact_spreads,
-                                          EventKind::contact_opens, EventKind::contact_gathers};
+                                          EventKind::contact_splits, EventKind::contact_shrinks};
     ASSERT_GE(kinds.size(), expected.size());
     kinds.resize(expected.size());
     EXPECT_EQ(kinds, expected);
-    const RecordEvent& opening = test::event_of(run.record(), EventKind::contact_opens);
-    const RecordEvent& closing = test::event_of(run.record(), EventKind::contact_closes, 2);
+    const RecordEvent& opening = test::event_of(run.record(), EventKind::contact_splits);
+    const RecordEvent& closing = test::event_of(run.record(), EventKind::contacts_merge);
     EXPECT_NEAR(opening.lambda, opens, 6e-5 * opens);
     EXPECT_NEAR(closing.lambda, closes, 6e-5 * closes);
     ASSERT_EQ(opening.contacts.size(), 1U);
@@ -96,8 +96,8 @@ TEST(SplinePoints, PartsOpenAndCloseWithTheOrderOfTheElements) {
   std::vector<double> opening, closing;
   for (const int elements : {20, 40, 80}) {
     const Session run = test::traced(deck({.elements = elements}));
-    opening.push_back(test::event_of(run.record(), EventKind::contact_opens).lambda);
-    closing.push_back(test::event_of(run.record(), EventKind::contact_closes, 2).lambda);
+    opening.push_back(test::event_of(run.record(), EventKind::contact_splits).lambda);
+    closing.push_back(test::event_of(run.record(), EventKind::contacts_merge).lambda);
   }
   for (const std::vector<double>& lambda : {opening, closing}) {
     const double order = std::log2((lambda[0] - lambda[1]) / (lambda[1] - lambda[2]));
@@ -109,7 +109,7 @@ TEST(SplinePoints, PartsOpenAndCloseWithTheOrderOfTheElements) {
 // the spline's: p̄ d³ = 12 EI J δ² (1 − δ/d), and as the arch is longer the pressure along it is another, by d/L.
 TEST(SplinePoints, AnArchIsAsLongAsWhatPullsAndWhatPressesSay) {
   const Session run = test::traced(deck({.elements = 80}), {"path.stop.lambda=[-1.0, 3.305]"});
-  const double lambda = test::event_of(run.record(), EventKind::contact_opens).lambda;
+  const double lambda = test::event_of(run.record(), EventKind::contact_splits).lambda;
   int seen = 0;
   for (const RecordPoint& point : run.points()) {
     if (!(point.lambda > lambda) || point.forces.size() != 3) continue;

@@ -12,11 +12,11 @@
 
 namespace arcwall::test {
 
-/// The text of a deck, traced to the end of its paths. What does not speak of landings has none, which would take time.
+/// The text of a deck, traced to the end of its paths. What does not speak of jumps has none, which would take time.
 inline Session traced(const std::string& deck, std::vector<std::string> assignments = {}) {
-  const auto speaks = [](const std::string& text) { return text.find("landing") != std::string::npos; };
+  const auto speaks = [](const std::string& text) { return text.find("jumps") != std::string::npos; };
   if (!speaks(deck) && std::none_of(assignments.begin(), assignments.end(), speaks))
-    assignments.emplace_back("path.landing=false");
+    assignments.emplace_back("path.jumps=false");
   Session run({.deck = "deck.toml", .deck_text = deck, .assignments = assignments});
   if (!run.begin()) ADD_FAILURE() << run.problem();
   while (run.next() != nullptr) {

@@ -45,7 +45,7 @@ TEST(WatchedForce, HasItsMaximumRightBehindATouchWhateverTheStep) {
   for (const char* const setting : {"path.step=0.1", "path.step=1.0", "path.max_step=0.5", "path.max_step=0.05"}) {
     SCOPED_TRACE(setting);
     const Session run = test::traced(clip, {setting});
-    const auto turns = test::events_of(run.record(), EventKind::displacement_limit);
+    const auto turns = test::events_of(run.record(), EventKind::turning_point);
     ASSERT_EQ(turns.size(), 2U);
     EXPECT_NEAR(turns[0].monitors[0], greatest, 1e-7 * greatest);
     EXPECT_NEAR(greatest_push(run.record()), greatest, 1e-7 * greatest);

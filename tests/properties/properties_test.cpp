@@ -55,7 +55,7 @@ Story story_of(const Deck& deck) {
     for (const Event& event : step->arc.events)
       story.scenes.push_back({.kind = event.kind,
                               .lambda = event.state.lambda,
-                              .uncertain = event.localised,
+                              .uncertain = event.lambda_uncertainty,
                               .arc = event.arc,
                               .unstable_before = event.unstable_before,
                               .unstable_after = event.unstable_after,

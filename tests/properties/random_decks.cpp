@@ -38,7 +38,7 @@ deck::Member& add_member(Deck& deck, const char* name, const char* from, const c
                           .section = "bar",
                           .elements = elements});
   deck::Member& added = deck.members.back();
-  if (theory == Theory::exact || theory == Theory::essenburg) added.order = 2;
+  if (theory == Theory::reissner || theory == Theory::essenburg) added.order = 2;
   if (theory == Theory::elastica) added.order = 6;
   return added;
 }
@@ -58,7 +58,7 @@ void follow(Deck& deck, double step, double most = 60.0) {
   deck.path.stop.bounds.push_back({.name = "lambda", .low = -most * step, .high = most * step});
 }
 
-Theory beam_theory() { return *rc::gen::element(Theory::classic, Theory::elastica, Theory::exact); }
+Theory beam_theory() { return *rc::gen::element(Theory::euler_bernoulli, Theory::elastica, Theory::reissner); }
 
 // A load down and a little aside, so that nothing is symmetric.
 void push(Deck& deck, deck::Place at, double force) { load(deck, std::move(at), force * *between(-0.3, 0.3), -force); }
@@ -167,7 +167,7 @@ rc::Gen<Deck> walled_deck() {
   return rc::gen::exec([] {
     const double length = 20.0, height = *between(0.1, 0.4), gap = *between(0.2, 1.0);
     const int elements = 2 * *rc::gen::inRange(2, 5);
-    const Theory theory = *rc::gen::element(Theory::classic, Theory::elastica, Theory::exact);
+    const Theory theory = *rc::gen::element(Theory::euler_bernoulli, Theory::elastica, Theory::reissner);
     Deck deck = deck_of("Beam between walls", height);
     add_point(deck, "left", 0.0, 0.0);
     add_point(deck, "right", length, 0.0);

@@ -73,8 +73,8 @@ double lambda_of(const Graph& graph, std::size_t branch, EventKind kind, std::si
 
 const std::vector<PathEvent> deep_points = {
     {EventKind::limit_point, 897.294947593916, {-61.141688374665, -113.730829640612}},
-    {EventKind::displacement_limit, 559.219378191646, {-64.963819621710, -120.388749570584}},
-    {EventKind::displacement_limit, 8.711863197127, {-61.064543757440, -118.479972180842}},
+    {EventKind::turning_point, 559.219378191646, {-64.963819621710, -120.388749570584}},
+    {EventKind::turning_point, 8.711863197127, {-61.064543757440, -118.479972180842}},
     {EventKind::limit_point, -73.051143418756, {-57.067750595019, -122.065270509795}}};
 
 const std::vector<PathEvent> shallow_points = {
@@ -133,7 +133,7 @@ TEST(ShallowArch, BranchPointsFollowTheLimitPoints) {
   // c h⁴ with 48 elements a half: 1e-8 relative was seen, half of the tolerance.
   expect_points(model, branch, shallow_points, 1280.0 * 4e-8, 850.0 * 4e-8);
   for (const Event& event : events_of(branch, EventKind::branch_point))
-    EXPECT_EQ(event.branching->type, BranchType::symmetric);
+    EXPECT_EQ(event.branching->type, BranchType::pitchfork);
   expect_branch_invariants(*model.structure, branch, model.options());
 }
 
@@ -158,8 +158,8 @@ TEST(ShallowArch, TheSecondBranchIsThatOfTheElasticaAndJoinsBothBranchPoints) {
     model.target_values.push_back({.quantity = test::displacement(*model.structure, 1, Freedom::z), .value = sample.w});
   const Graph graph = swaying(model);
   ASSERT_EQ(graph.records.size(), 2U);
-  EXPECT_TRUE(graph.records[1].mirrored);
-  EXPECT_EQ(graph.branches[1].end.reason, EndReason::joined);
+  EXPECT_TRUE(graph.records[1].mirror_image);
+  EXPECT_EQ(graph.branches[1].end.reason, EndReason::reached_branch);
   EXPECT_TRUE(events_of(graph.branches[1], EventKind::branch_point).empty());
   EXPECT_TRUE(events_of(graph.branches[1], EventKind::limit_point).empty());
   std::size_t met = 0;
@@ -179,11 +179,11 @@ TEST(PinnedSemicircle, SwaysBeforeItsLimitPointToBothSidesAlike) {
   const Graph to_the_right = swaying(model), to_the_left = swaying(model, -1.0);
   for (const Graph* graph : {&to_the_right, &to_the_left}) {
     ASSERT_EQ(graph->records.size(), 2U);
-    EXPECT_TRUE(graph->records[1].mirrored);
+    EXPECT_TRUE(graph->records[1].mirror_image);
     EXPECT_EQ(graph->records[1].parent, 0);
     // c h⁴ with 48 elements a half: 6e-8 relative was seen, half of the tolerance.
     expect_points(model, graph->branches[0], semicircle_points, 36.0 * 1.2e-7, 93.0 * 1.2e-7);
-    EXPECT_EQ(events_of(graph->branches[0], EventKind::branch_point).at(0).branching->type, BranchType::symmetric);
+    EXPECT_EQ(events_of(graph->branches[0], EventKind::branch_point).at(0).branching->type, BranchType::pitchfork);
     const double side = graph == &to_the_right ? 1.0 : -1.0;
     expect_points(model, graph->branches[1],
                   {{EventKind::limit_point, 27.6290182852711, {side * 66.6164258550, -92.3234990050}}}, 27.63 * 1.2e-7,

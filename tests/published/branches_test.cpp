@@ -48,13 +48,13 @@ TEST(FreeColumn, AllFourBranchesAreFoundWithTheirCounts) {
     EXPECT_NEAR(event.state.lambda / buckling_load(n), 1.0, std::pow(n * pi / 40.0, 4) / 600.0);
     EXPECT_EQ(event.unstable_before, n - 1);
     EXPECT_EQ(event.unstable_after, n);
-    EXPECT_EQ(event.branching->type, BranchType::symmetric);
+    EXPECT_EQ(event.branching->type, BranchType::pitchfork);
     const auto id = static_cast<std::size_t>(n);
     const BranchRecord& record = graph.records[id];
     const test::Branch& branch = graph.branches[id];
     EXPECT_EQ(record.parent, 0);
     EXPECT_EQ(record.origin, event.branching);
-    EXPECT_TRUE(record.mirrored);
+    EXPECT_TRUE(record.mirror_image);
     EXPECT_EQ(branch.end.reason, EndReason::stop);
     EXPECT_NEAR(branch.last().state.lambda, 8.0, 1e-12);
     EXPECT_EQ(branch.arcs.at(1).to.count.unstable, Index{n - 1});
@@ -71,7 +71,7 @@ TEST(PerfectChannel, IsFollowedToTheLowerWallWithoutCycling) {
     TraceOptions trace = until(10.0);
     trace.node_contacts = true;
     const test::Graph graph =
-        test::explore(model.system(), trace, {.policy = BranchPolicy::follow, .preference = {middle}});
+        test::explore(model.system(), trace, {.policy = BranchPolicy::most_stable, .preference = {middle}});
 
     ASSERT_EQ(graph.records.size(), 2U);
     const Event buckling = only_event(graph.branches[0], EventKind::branch_point);
@@ -83,7 +83,7 @@ TEST(PerfectChannel, IsFollowedToTheLowerWallWithoutCycling) {
     EXPECT_NEAR(graph.branches[1].last().state.lambda, 10.0, 1e-12);
     EXPECT_NEAR(middle->value(graph.branches[1].last().state), -0.15, 1e-12);
     for (const Event& event : events_of(graph.branches[1], EventKind::branch_point))
-      EXPECT_TRUE(event.branching->discretisation);
+      EXPECT_TRUE(event.branching->mesh_artefact);
   }
 }
 

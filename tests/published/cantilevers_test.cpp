@@ -171,7 +171,7 @@ TEST(PushedCantilever, ItsDeflectionTurnsWhereThatOfTheElasticaDoes) {
     return path;
   };
   const std::vector<test::PathEvent> expected = {
-      {EventKind::displacement_limit, 4.322683039787027, {-0.808198639148663, 0.8060399566916872}}};
+      {EventKind::turning_point, 4.322683039787027, {-0.808198639148663, 0.8060399566916872}}};
   for (const BeamTheory& beam : test::elastica_theories())
     test::expect_points_converge(beam, 8, model, expected, {.limit_in_lambda = 1e-7, .limit_in_displacement = 1e-7});
 }

@@ -151,7 +151,7 @@ TEST(Channel, APerfectColumnStaysStraightAndCountsItsBucklingModes) {
     EXPECT_EQ(event.unstable_before, n - 1);
     EXPECT_EQ(event.unstable_after, n);
     ASSERT_NE(event.branching, nullptr);
-    EXPECT_EQ(event.branching->type, BranchType::symmetric);
+    EXPECT_EQ(event.branching->type, BranchType::pitchfork);
     EXPECT_EQ(event.branching->multiplicity, 1);
   }
   EXPECT_EQ(branch.last().count.unstable, 4);

@@ -46,13 +46,13 @@ std::vector<Bent> bent(const Column& column, double fraction, const std::vector<
   for (const double value : degrees)
     trace.target_values.push_back(
         {.quantity = angle, .value = value * pi / 180.0, .stops = value == degrees.back(), .label = "angle"});
-  const Graph graph = test::explore(*structure, trace, {.policy = BranchPolicy::follow, .preference = {angle}});
+  const Graph graph = test::explore(*structure, trace, {.policy = BranchPolicy::most_stable, .preference = {angle}});
   std::vector<Bent> found;
   if (graph.records.size() != 2) {
     ADD_FAILURE() << graph.records.size() << " branches";
     return std::vector<Bent>(degrees.size());
   }
-  EXPECT_TRUE(graph.records[1].mirrored);
+  EXPECT_TRUE(graph.records[1].mirror_image);
   const MemberMesh& mesh = structure->members()[0];
   for (const Arc& arc : graph.branches[1].arcs)
     for (const double value : degrees)
@@ -113,11 +113,11 @@ TEST(PinnedColumn, HasItsBranchPointsWithTheirCounts) {
     const double load = buckling_load(n, EA);
     // The element's error: (π n/40)⁴/720 relative, amplified by the factor that the stretch adds.
     EXPECT_NEAR(event.state.lambda, load, 2.0 * load * std::pow(pi * double(n) / 40.0, 4) / 720.0 + 1e-9);
-    EXPECT_EQ(event.branching->type, BranchType::symmetric);
+    EXPECT_EQ(event.branching->type, BranchType::pitchfork);
     EXPECT_EQ(event.branching->multiplicity, 1);
     EXPECT_EQ(event.unstable_before, n - 1);
     EXPECT_EQ(event.unstable_after, n);
-    EXPECT_LE(event.localised, 1e-10 * load);
+    EXPECT_LE(event.lambda_uncertainty, 1e-10 * load);
   }
 }
 
@@ -131,9 +131,9 @@ TEST(PinnedColumn, SaysHowFarRoundOffMovesItsBranchPoints) {
     for (int n = 1; n <= 2; ++n) {
       const Event& event = points[static_cast<std::size_t>(n - 1)];
       const double load = buckling_load(n, EA);
-      EXPECT_NEAR(event.state.lambda, load, event.localised + 1e-11 * load);
-      EXPECT_GE(event.localised, 1e-11 * load);
-      EXPECT_LE(event.localised, 1e-8 * load);
+      EXPECT_NEAR(event.state.lambda, load, event.lambda_uncertainty + 1e-11 * load);
+      EXPECT_GE(event.lambda_uncertainty, 1e-11 * load);
+      EXPECT_LE(event.lambda_uncertainty, 1e-8 * load);
     }
   }
 }
@@ -160,7 +160,7 @@ TEST(PinnedColumn, BucklesUnderASupportThatMoves) {
   const double load = buckling_load(1, EA), shortening = load / EA;
   const double by_element = 2.0 * std::pow(pi / 40.0, 4) / 720.0;  // relative, as above
   EXPECT_NEAR(points[0].state.lambda, shortening, by_element * shortening + 1e-12);
-  EXPECT_EQ(points[0].branching->type, BranchType::symmetric);
+  EXPECT_EQ(points[0].branching->type, BranchType::pitchfork);
   EXPECT_EQ(points[0].unstable_after, 1);
   const double reaction = column->reaction(points[0].state, column->freedom(1, Freedom::x));
   EXPECT_NEAR(reaction, -EA * points[0].state.lambda, 1e-9 * load);
@@ -240,7 +240,7 @@ TEST(PinnedColumn, LosesItsStabilityWhereItsEndsMeet) {
         const Event event = only_event(graph.branches.at(1), EventKind::branch_point);
         EXPECT_EQ(event.unstable_before, 0);
         EXPECT_EQ(event.unstable_after, 1);
-        EXPECT_EQ(event.branching->type, BranchType::symmetric);
+        EXPECT_EQ(event.branching->type, BranchType::pitchfork);
         return event.state.lambda;
       };
       return test::at_zero(second_branch_point, 1e-5);

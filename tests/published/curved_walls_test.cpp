@@ -93,9 +93,9 @@ void expect_turn_of_the_elastica(Theory theory, int order) {
 
 }  // namespace
 
-TEST(WrappedStrip, ClassicHasTheTurnOfTheElastica) { expect_turn_of_the_elastica(Theory::classic, 2); }
+TEST(WrappedStrip, ClassicHasTheTurnOfTheElastica) { expect_turn_of_the_elastica(Theory::euler_bernoulli, 2); }
 TEST(WrappedStrip, ElasticaHasTheTurnOfTheElastica) { expect_turn_of_the_elastica(Theory::elastica, 6); }
-TEST(WrappedStrip, ExactHasTheTurnOfTheElastica) { expect_turn_of_the_elastica(Theory::exact, 2); }
+TEST(WrappedStrip, ExactHasTheTurnOfTheElastica) { expect_turn_of_the_elastica(Theory::reissner, 2); }
 TEST(WrappedStrip, EssenburgHasTheTurnOfTheElasticaSlow) { expect_turn_of_the_elastica(Theory::essenburg, 2); }
 
 // A classic beam of half length 1 above the parabola z = −h/2 − d + ½ k x² under small end moments conforms to it for M

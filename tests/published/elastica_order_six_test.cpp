@@ -29,7 +29,7 @@ PathModel path_of(std::unique_ptr<Structure> structure, Index loaded, double fir
 std::vector<double> singular_loads(const PathModel& model) {
   std::vector<double> loads;
   for (const test::PathEvent& point : points_of(model, traced(model)))
-    if (point.kind != EventKind::displacement_limit) loads.push_back(point.lambda);
+    if (point.kind != EventKind::turning_point) loads.push_back(point.lambda);
   return loads;
 }
 

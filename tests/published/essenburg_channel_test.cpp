@@ -49,7 +49,7 @@ Perfect perfect(const EssenburgChannel& described) {
   options.step.first = described.first_step;
   options.stop_contacts = 1;
   options.node_contacts = true;
-  const test::Graph graph = test::explore(model.system(), options, {.policy = BranchPolicy::follow});
+  const test::Graph graph = test::explore(model.system(), options, {.policy = BranchPolicy::most_stable});
   return {.buckles = only_event(graph.branches.at(0), EventKind::branch_point).state.lambda,
           .touches = only_event(graph.branches.at(1), EventKind::contact_closes).state.lambda};
 }

@@ -35,8 +35,8 @@ const std::vector<test::PathEvent> williams_points = {{EventKind::limit_point, 3
 
 const std::vector<test::PathEvent> lee_points = {
     {EventKind::limit_point, 1.855672753757, {26.880573741639, -48.735137245104}},
-    {EventKind::displacement_limit, 1.194410418780, {61.747470374254, -61.002978851425}},
-    {EventKind::displacement_limit, -0.438048021661, {81.229007582176, -50.746251363189}},
+    {EventKind::turning_point, 1.194410418780, {61.747470374254, -61.002978851425}},
+    {EventKind::turning_point, -0.438048021661, {81.229007582176, -50.746251363189}},
     {EventKind::limit_point, -0.941443155560, {90.195673535530, -58.216815328711}}};
 
 // Flexible in shear, GA = 720·6/2.6; again by shooting.

@@ -59,12 +59,12 @@ TEST(TranscriticalFunction, BothBranchesCrossAndExchangeTheirStability) {
   ASSERT_EQ(graph.records.size(), 3U);
   const Event crossing = only_event(graph.branches[0], EventKind::branch_point);
   EXPECT_NEAR(crossing.state.lambda, 0.0, 1e-10);
-  EXPECT_EQ(crossing.branching->type, BranchType::asymmetric);
+  EXPECT_EQ(crossing.branching->type, BranchType::transcritical);
   EXPECT_EQ(crossing.unstable_before, 0);
   EXPECT_EQ(crossing.unstable_after, 1);
   // Both ways of x = λ: forward it is stable, backward not.
   for (const std::size_t id : {1U, 2U}) {
-    EXPECT_FALSE(graph.records[id].mirrored);
+    EXPECT_FALSE(graph.records[id].mirror_image);
     const State& end = graph.branches[id].last().state;
     EXPECT_NEAR(std::abs(end.lambda), 1.0, 1e-12);
     EXPECT_NEAR(end.x[0], end.lambda, 1e-12);
@@ -116,8 +116,8 @@ TEST(PitchforkFunction, BothSidesAreMirrorImages) {
   ASSERT_EQ(graph.records.size(), 2U);
   const Event fork = only_event(graph.branches[0], EventKind::branch_point);
   EXPECT_NEAR(fork.state.lambda, 0.0, 1e-10);
-  EXPECT_EQ(fork.branching->type, BranchType::symmetric);
-  EXPECT_TRUE(graph.records[1].mirrored);
+  EXPECT_EQ(fork.branching->type, BranchType::pitchfork);
+  EXPECT_TRUE(graph.records[1].mirror_image);
   for (const Arc& arc : graph.branches[1].arcs) EXPECT_NEAR(arc.to.state.lambda, std::pow(arc.to.state.x[0], 2), 1e-10);
   EXPECT_EQ(graph.branches[0].last().count.unstable, Index{1});
   EXPECT_EQ(graph.branches[1].last().count.unstable, Index{0});
@@ -160,7 +160,7 @@ TEST(CuspFunction, FoldsVanishAtTheCusp) {
   }
   const auto cusp = test::cusp(0.0);
   const Branch level = test::trace(cusp, backwards, test::solved_at(cusp, at(-1.1, 1.4), 1.4, 1));
-  EXPECT_TRUE(only_event(level, EventKind::limit_point).suspected);
+  EXPECT_TRUE(only_event(level, EventKind::limit_point).unconfirmed);
 }
 
 TEST(IsolaFunction, IsPassedOnceAroundHoweverSmall) {

@@ -71,7 +71,7 @@ TraceOptions up_to(double lambda) {
 }  // namespace
 
 TEST(MovingFloor, HoldsTheNodeThatItMeetsAsLinearTheorySays) {
-  for (const Theory theory : {Theory::classic, Theory::elastica}) {
+  for (const Theory theory : {Theory::euler_bernoulli, Theory::elastica}) {
     SCOPED_TRACE(static_cast<int>(theory));
     const test::ContactModel model(loaded_beam(theory, 16).build(), rising_floor(), 0.05);
     const TraceOptions options = up_to(1.5);
@@ -90,7 +90,7 @@ TEST(MovingFloor, HoldsTheNodeThatItMeetsAsLinearTheorySays) {
 }
 
 TEST(MovingFloor, BearsTheBeamOverALengthAsLinearTheorySays) {
-  for (const Theory theory : {Theory::classic, Theory::elastica}) {
+  for (const Theory theory : {Theory::euler_bernoulli, Theory::elastica}) {
     SCOPED_TRACE(static_cast<int>(theory));
     const test::SlidingModel model(loaded_beam(theory, 40), rising_floor(), 0.05);
     const TraceOptions options = up_to(4.0);

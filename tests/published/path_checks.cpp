@@ -47,7 +47,7 @@ void expect_point_converges(const std::vector<PathEvent>& meshes, const PathEven
     in_lambda.push_back((point.lambda - expected.lambda) / scales.lambda);
     distances.push_back(std::hypot(in_lambda.back(), (point.displacement - expected.displacement).norm() / scales.way));
   }
-  if (expected.kind != EventKind::displacement_limit) expect_order(in_lambda, order);
+  if (expected.kind != EventKind::turning_point) expect_order(in_lambda, order);
   expect_order(distances, order, precision.noise);
   EXPECT_NEAR(extrapolated(lambdas, order), expected.lambda, precision.limit_in_lambda * scales.lambda);
   EXPECT_NEAR(extrapolated(xs, order), expected.displacement.x(), precision.limit_in_displacement * scales.way);
@@ -61,7 +61,7 @@ Branch traced(const PathModel& model) { return trace(*model.structure, model.opt
 std::vector<PathEvent> points_of(const PathModel& model, const Branch& branch) {
   std::vector<PathEvent> found;
   for (const Event& event : events_of(branch))
-    if (event.kind == EventKind::limit_point || event.kind == EventKind::displacement_limit ||
+    if (event.kind == EventKind::limit_point || event.kind == EventKind::turning_point ||
         event.kind == EventKind::branch_point)
       found.push_back({.kind = event.kind,
                        .lambda = event.state.lambda,

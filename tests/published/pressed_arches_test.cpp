@@ -65,8 +65,8 @@ double half_circle(Ends ends, const test::BeamTheory& theory, int elements, doub
 }
 
 const test::BeamTheory elastica{.name = "elastica", .theory = Theory::elastica, .order = 6};
-const test::BeamTheory classic{.name = "classic", .theory = Theory::classic};
-const test::BeamTheory exact{.name = "exact", .theory = Theory::exact, .order = 2};
+const test::BeamTheory classic{.name = "classic", .theory = Theory::euler_bernoulli};
+const test::BeamTheory exact{.name = "exact", .theory = Theory::reissner, .order = 2};
 
 }  // namespace
 

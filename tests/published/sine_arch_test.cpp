@@ -67,8 +67,8 @@ TEST(SineArch, TheSwayBranchIsStraightAndJoinsBothBranchPoints) {
   const auto arch = test::sine_arch(e, 2);
   const Graph graph = test::explore(arch, to_load(20.0), {.policy = BranchPolicy::all});
   ASSERT_EQ(graph.records.size(), 2U);
-  EXPECT_TRUE(graph.records[1].mirrored);
-  EXPECT_EQ(graph.branches[1].end.reason, EndReason::joined);
+  EXPECT_TRUE(graph.records[1].mirror_image);
+  EXPECT_EQ(graph.branches[1].end.reason, EndReason::reached_branch);
   for (const Arc& arc : graph.branches[1].arcs) {
     const double b1 = arc.to.state.x[0] + e, b2 = arc.to.state.x[1];
     EXPECT_NEAR(arc.to.state.lambda, e + 3.0 * b1, 1e-8);
@@ -94,7 +94,7 @@ TEST(SineArch, AHighArchHasABranchForEachMode) {
   for (const int n : {2, 3, 4}) {
     SCOPED_TRACE(n);
     const test::Branch& branch = graph.branches[static_cast<std::size_t>(n - 1)];
-    EXPECT_EQ(branch.end.reason, EndReason::joined);
+    EXPECT_EQ(branch.end.reason, EndReason::reached_branch);
     for (const Arc& arc : branch.arcs)
       EXPECT_NEAR(arc.to.state.lambda, e + (n * n - 1) * (arc.to.state.x[0] + e), 1e-7);
   }

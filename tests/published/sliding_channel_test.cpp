@@ -74,9 +74,9 @@ struct PerfectChannel {
   }
 };
 
-const std::vector<EventKind> kinds{
-    EventKind::branch_point,       EventKind::contact_closes, EventKind::contact_spreads,    EventKind::branch_point,
-    EventKind::displacement_limit, EventKind::contact_closes, EventKind::contact_limit_point};
+const std::vector<EventKind> kinds{EventKind::branch_point,       EventKind::contact_closes, EventKind::contact_spreads,
+                                   EventKind::branch_point,       EventKind::turning_point,  EventKind::contact_closes,
+                                   EventKind::contact_limit_point};
 const std::vector<double> expected{buckling,         touch,       spreads,     flat_buckles,
                                    least_shortening, lower_touch, lower_touch, crosses};
 
@@ -130,15 +130,15 @@ TEST(SlidingChannelEvents, HaveTheShapesOfTheElastica) {
 TEST(SlidingChannelEvents, CountUnstableDirections) {
   const PerfectChannel found(20);
   ASSERT_EQ(found.branches.size(), 3U);
-  EXPECT_EQ(test::events_of(found.branches)[0].branching->type, BranchType::symmetric);
-  EXPECT_TRUE(found.branches[1].record.mirrored);
+  EXPECT_EQ(test::events_of(found.branches)[0].branching->type, BranchType::pitchfork);
+  EXPECT_TRUE(found.branches[1].record.mirror_image);
   const Event buckles = test::events_of(found.branches)[3];
   EXPECT_EQ(buckles.branching->type, BranchType::one_sided);
   EXPECT_EQ(buckles.branching->multiplicity, 1);
   bool lower = false;
   for (std::size_t b = 0; b < found.branches.size(); ++b) {
     const auto& arcs = found.branches[b].arcs;
-    EXPECT_EQ(found.branches[b].record.end->reason, b == 2 ? EndReason::stop : EndReason::branched);
+    EXPECT_EQ(found.branches[b].record.end->reason, b == 2 ? EndReason::stop : EndReason::switched_branch);
     for (std::size_t i = 1; i < arcs.size(); ++i) {
       if (b < 2 && i + 1 == arcs.size()) continue;  // singular
       const PathPoint& to = arcs[i].to;
@@ -178,7 +178,7 @@ TEST(SlidingChannelEvents, EndBeforeAContinuumIfToldSo) {
   for (const int elements : {20, 40, 80}) {
     const PerfectChannel found(elements, 20.0, ContinuumChoice::stop);
     const BranchEnd& end = *found.branches.back().record.end;
-    EXPECT_EQ(end.reason, EndReason::continuum);
+    EXPECT_EQ(end.reason, EndReason::equilibrium_family);
     ASSERT_TRUE(end.continuum.has_value());
     EXPECT_EQ(end.continuum->parts, 3);
     EXPECT_EQ(end.continuum->length, 0.0);  // all three are points yet
@@ -339,7 +339,7 @@ TEST(SlidingChannelThirdHarmonic, HasOneLimitPoint) {
     std::vector<EventKind> in_order;
     const auto events = test::events_of(branches);
     for (const Event& event : events) in_order.push_back(event.kind);
-    ASSERT_EQ(in_order, (std::vector{EventKind::contact_closes, EventKind::contact_spreads, EventKind::limit_point,
+    ASSERT_EQ(in_order, (std::vector{EventKind::contact_closes, EventKind::contact_splits, EventKind::limit_point,
                                      EventKind::contact_closes, EventKind::contact_limit_point}));
     EXPECT_NEAR(middle(model)->value(events[2].state), 0.146860, 1e-5);
     EXPECT_EQ(events[2].unstable_before, 0);
@@ -354,13 +354,13 @@ TEST(SlidingChannelThirdHarmonic, HasOneLimitPoint) {
 }
 
 // The shortest stretch of contact is a thousandth of the member: here it has several elements from the start.
-TEST(SlidingChannelThirdHarmonic, LiesDownOnMeshesFinerThanTheShortestStretchSlow) {
+TEST(SlidingChannelThirdHarmonic, SplitsOnMeshesFinerThanTheShortestStretchSlow) {
   const SlidingModel model = channel(1280, test::snapping_imperfection());
   const auto branches = test::follow(model.system(), model.system().rest(), until(7.5));
   ASSERT_EQ(branches.size(), 1U);
   const auto events = test::events_of(branches);
   ASSERT_GE(events.size(), 3U);
-  EXPECT_EQ(events[1].kind, EventKind::contact_spreads);
+  EXPECT_EQ(events[1].kind, EventKind::contact_splits);
   EXPECT_EQ(events[2].kind, EventKind::limit_point);
   EXPECT_NEAR(events[2].state.lambda, 6.863204701, 4e-6 * events[2].state.lambda);
 }
@@ -426,8 +426,8 @@ TEST(NearlyPerfectChannel, AllThreeContactsBecomeStretchesOneAfterTheOtherSlow) 
     const SlidingModel model = channel(elements, {{.amplitude = 2e-3, .waves = 1}, {.amplitude = 3e-4, .waves = 3}});
     const auto branches = test::follow(model.system(), model.system().rest(), until(18.0), {middle(model)});
     EXPECT_EQ(branches.back().record.end->reason, EndReason::stop) << elements << " elements";
-    upper.push_back(test::event_of(branches, EventKind::contact_spreads, 1).state.lambda);
-    lower.push_back(test::event_of(branches, EventKind::contact_spreads, 2).state.lambda);
+    upper.push_back(test::event_of(branches, EventKind::contact_spreads, 0).state.lambda);
+    lower.push_back(test::event_of(branches, EventKind::contact_spreads, 1).state.lambda);
   }
   for (const auto& loads : {upper, lower})
     EXPECT_NEAR(std::log2(std::abs((loads[1] - loads[0]) / (loads[2] - loads[1]))), 4.0, 0.3);  // order four
@@ -440,8 +440,8 @@ TEST(NearlyPerfectChannel, AllThreeContactsBecomeStretchesOneAfterTheOtherSlow) 
 TEST(NearlyPerfectChannel, IsFollowedBackFromTheBucklingOfItsFlatParts) {
   const SlidingModel model = channel(40, {{.amplitude = 2e-3, .waves = 1}, {.amplitude = 3e-4, .waves = 3}});
   const auto branches = test::follow(model.system(), model.system().rest(), until(60.0), {middle(model)});
-  const double began = test::event_of(branches, EventKind::contact_spreads, 2).state.lambda;
-  EXPECT_NEAR(test::event_of(branches, EventKind::contact_gathers).state.lambda, began, 1e-8);
+  const double began = test::event_of(branches, EventKind::contact_spreads, 1).state.lambda;
+  EXPECT_NEAR(test::event_of(branches, EventKind::contact_shrinks).state.lambda, began, 1e-8);
   for (const Event& event : test::events_of(branches)) {
     if (event.kind == EventKind::contact_limit_point) {
       EXPECT_LT(event.state.lambda, 5.0);

@@ -282,7 +282,7 @@ TEST(SlidingContactPath, CountsAsItsEquationsSayOnASharpBend) {
     std::vector<EventKind> kinds;
     for (const Event& event : path.events()) kinds.push_back(event.kind);
     kinds.resize(9);
-    EXPECT_EQ(kinds, (std::vector{branches, touches, spreads, branches, limit, EventKind::contact_gathers, limit,
+    EXPECT_EQ(kinds, (std::vector{branches, touches, spreads, branches, limit, EventKind::contact_shrinks, limit,
                                   branches, branches}));
     std::map<std::size_t, int> expected;  // of the upper and the lower wall, whose normals are opposite
     int seen = 0, sprung = 0;
@@ -319,9 +319,9 @@ TEST(SlidingContactPath, TurnsAtTheLoadMaximumOfItsOuterArcsSlow) {
     maxima.push_back(maximum.state.lambda);
     std::vector<EventKind> kinds;
     for (const Event& event : path.events()) kinds.push_back(event.kind);
-    EXPECT_EQ(kinds, (std::vector{branches, touches, spreads, branches, limit, EventKind::contact_gathers, limit}));
+    EXPECT_EQ(kinds, (std::vector{branches, touches, spreads, branches, limit, EventKind::contact_shrinks, limit}));
     EXPECT_EQ(path.events()[3].state.lambda, maximum.state.lambda);
-    EXPECT_TRUE(path.events()[3].suspected);
+    EXPECT_TRUE(path.events()[3].unconfirmed);
     EXPECT_EQ(path.branches.back().arcs.back().to.count.unstable, 1);  // far behind, at 1.3275 again
     expect_invariants(path);
   }
@@ -355,9 +355,10 @@ TEST(SlidingContactPath, EndsWhereAFreeEndStandsUpright) {
   builder.add_load(builder.shared_rotation(tip).value(), -1.0, LoadKind::proportional);
   const Path stands = path_of(
       SlidingModel(builder, {{.name = "floor", .side = Side::below, .profile = flat_profile(-0.225)}}, 0.05), 100.0);
-  EXPECT_EQ(stands.end(), EndReason::unsupported);
+  EXPECT_EQ(stands.end(), EndReason::not_modelled);
   EXPECT_EQ(stands.branches.back().record.end->detail,
-            "the free end of a member stands upright against a wall: its other corner would touch: floor at 0:1");
+            "the free end of a member is perpendicular to the wall: the other corner of its section would touch: floor "
+            "at 0:1");
 }
 
 // A load that acts 0.02 off the axis at the left end bends the column before it buckles: it touches aside the middle,

@@ -15,7 +15,7 @@ namespace {
 using test::SlidingModel;
 
 constexpr auto closes = EventKind::contact_closes, spreads = EventKind::contact_spreads,
-               passes = EventKind::contact_passes, branches = EventKind::branch_point;
+               passes = EventKind::contact_transfers, branches = EventKind::branch_point;
 
 constexpr double L = 2.0, gap = 1e-3;           // of the beam; between its lower face and the wall
 constexpr double small_slopes = 5.0 * gap / L;  // the squares of slopes are less than a thousandth of this

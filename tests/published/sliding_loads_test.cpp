@@ -79,10 +79,10 @@ Path path_of(const Beam& beam, double to) {
 // expect(beam), with the number of elements, the theory and whether there is a joint at the force.
 template <class Expect>
 void on_every_mesh(const Expect& expect) {
-  for (const Theory theory : {Theory::classic, Theory::elastica})
+  for (const Theory theory : {Theory::euler_bernoulli, Theory::elastica})
     for (const bool jointed : {false, true})
       for (const int elements : {10, 20, 40, 80}) {
-        SCOPED_TRACE(std::to_string(elements) + (theory == Theory::classic ? ", classic" : ", elastica") +
+        SCOPED_TRACE(std::to_string(elements) + (theory == Theory::euler_bernoulli ? ", classic" : ", elastica") +
                      (jointed ? ", jointed" : ""));
         expect(Beam{.elements = elements, .theory = theory, .a = 0.0, .force = 0.0, .jointed = jointed});
       }

@@ -19,8 +19,8 @@ using test::ExploredBranch;
 using test::SlidingModel;
 
 constexpr auto opens = EventKind::contact_opens, closes = EventKind::contact_closes,
-               spreads = EventKind::contact_spreads, gathers = EventKind::contact_gathers,
-               passes = EventKind::contact_passes;
+               spreads = EventKind::contact_spreads, gathers = EventKind::contact_shrinks,
+               passes = EventKind::contact_transfers;
 
 struct Path : test::SlidingPath {
   double load(std::size_t event) const { return events()[event].state.lambda; }
@@ -90,11 +90,13 @@ void expect_order(double least, const std::vector<double>& errors) {
 
 class SlidingTip : public ::testing::TestWithParam<Theory> {
  protected:
-  double least_order() const { return GetParam() == Theory::classic ? 3.5 : 5.0; }
+  double least_order() const { return GetParam() == Theory::euler_bernoulli ? 3.5 : 5.0; }
 };
 
-INSTANTIATE_TEST_SUITE_P(Theories, SlidingTip, ::testing::Values(Theory::classic, Theory::elastica),
-                         [](const auto& theory) { return theory.param == Theory::classic ? "Classic" : "Elastica"; });
+INSTANTIATE_TEST_SUITE_P(Theories, SlidingTip, ::testing::Values(Theory::euler_bernoulli, Theory::elastica),
+                         [](const auto& theory) {
+                           return theory.param == Theory::euler_bernoulli ? "Classic" : "Elastica";
+                         });
 
 }  // namespace
 

@@ -84,7 +84,7 @@ TEST(ColumnOnSprings, BucklesOverASpringInItsMiddleAsStaticsSay) {
     };
     const double expected = zero_of(statics, euler * 1.0001, two_waves * 0.9999);
     EXPECT_NEAR(first_branch_point({.middle = c}, Theory::elastica, 20), expected, 1e-8 * expected);
-    EXPECT_NEAR(first_branch_point({.middle = c}, Theory::classic, 80), expected, 1e-6 * expected);
+    EXPECT_NEAR(first_branch_point({.middle = c}, Theory::euler_bernoulli, 80), expected, 1e-6 * expected);
   }
   EXPECT_NEAR(first_branch_point({.middle = 1.1 * stiff_enough}, Theory::elastica, 20), two_waves, 1e-8 * two_waves);
 }
@@ -104,10 +104,10 @@ TEST(ColumnOnSprings, ConvergesWithItsOrder) {
   };
   const double at_ends = zero_of(statics, euler * 1.0001, 4.0 * euler);
   EXPECT_GT(least_order({.ends = 0.5}, Theory::elastica, at_ends), 5.0);
-  EXPECT_GT(least_order({.ends = 0.5}, Theory::classic, at_ends), 3.5);
+  EXPECT_GT(least_order({.ends = 0.5}, Theory::euler_bernoulli, at_ends), 3.5);
   const double founded = std::min(load_of(pi / L, 5.0), load_of(2.0 * pi / L, 5.0));
   EXPECT_GT(least_order({.foundation = 5.0}, Theory::elastica, founded), 3.5);
-  EXPECT_GT(least_order({.foundation = 5.0}, Theory::classic, founded), 3.5);
+  EXPECT_GT(least_order({.foundation = 5.0}, Theory::euler_bernoulli, founded), 3.5);
 }
 
 // Alike at both ends: tan(k L/2) = −EI k/c, from c = 0 (Euler) to ∞ (clamped).
@@ -130,7 +130,7 @@ TEST(ColumnOnSprings, BucklesOnAFoundationInTheWaveOfLeastLoad) {
     double expected = infinity;
     for (int m = 1; m <= 4; ++m) expected = std::min(expected, load_of(m * pi / L, k));
     EXPECT_NEAR(first_branch_point({.foundation = k}, Theory::elastica, 40), expected, 1e-6 * expected);
-    EXPECT_NEAR(first_branch_point({.foundation = k}, Theory::classic, 80), expected, 1e-6 * expected);
+    EXPECT_NEAR(first_branch_point({.foundation = k}, Theory::euler_bernoulli, 80), expected, 1e-6 * expected);
   }
 }
 

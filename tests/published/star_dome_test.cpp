@@ -129,7 +129,7 @@ TEST(StarDome, HasItsSimpleAndDoublePointsInOrder) {
     for (std::size_t i = 0; i < found.size(); ++i) {
       SCOPED_TRACE(i);
       EXPECT_EQ(found[i].kind, expected[i].kind);
-      EXPECT_FALSE(found[i].suspected);
+      EXPECT_FALSE(found[i].unconfirmed);
       EXPECT_NEAR(found[i].state.lambda, expected[i].lambda, 1e-11);
       EXPECT_NEAR(found[i].state.x[2], expected[i].apex, 1e-6);
       const Index change = found[i].unstable_after.value() - found[i].unstable_before.value();
@@ -137,7 +137,7 @@ TEST(StarDome, HasItsSimpleAndDoublePointsInOrder) {
       if (found[i].kind != branches) continue;
       EXPECT_EQ(found[i].branching->multiplicity, expected[i].multiplicity);
       EXPECT_EQ(found[i].branching->modes.size(), static_cast<std::size_t>(expected[i].multiplicity));
-      const auto type = expected[i].multiplicity == 1 ? BranchType::symmetric : BranchType::undetermined;
+      const auto type = expected[i].multiplicity == 1 ? BranchType::pitchfork : BranchType::multiple;
       EXPECT_EQ(found[i].branching->type, type);
     }
   }

@@ -90,7 +90,7 @@ TEST(VonMisesTruss, LimitLoadsMatchTheClosedFormsForAllStrains) {
     const test::Branch branch = trace(*truss, options, std::vector<Watch>{{.quantity = w, .label = "w"}});
 
     expect_limits(*truss, branch, EA, expected.shallow_limit, 1.0, 0);
-    EXPECT_TRUE(events_of(branch, EventKind::displacement_limit).empty());
+    EXPECT_TRUE(events_of(branch, EventKind::turning_point).empty());
     EXPECT_TRUE(events_of(branch, EventKind::branch_point).empty());  // h < √2 b
     expect_branch_invariants(*truss, branch, options);
   }
@@ -129,7 +129,7 @@ TEST(VonMisesTruss, SteepTrussesSwayBeforeTheirLimitPoint) {
     const Event& sway = points.front();
     EXPECT_NEAR(sway.state.lambda, expected.steep_sway.load, 1e-9 * expected.steep_sway.load);
     EXPECT_NEAR(descent(*truss, sway.state), expected.steep_sway.descent, 1e-9 * 5.0);
-    EXPECT_EQ(sway.branching->type, BranchType::symmetric);
+    EXPECT_EQ(sway.branching->type, BranchType::pitchfork);
     EXPECT_EQ(sway.unstable_before, 0);
     EXPECT_EQ(sway.unstable_after, 1);
     const Event limit = only_event(branch, EventKind::limit_point);
@@ -148,8 +148,8 @@ TEST(VonMisesTruss, TheSwayBranchIsTheClosedFormAndJoinsBothBranchPoints) {
   const auto points = events_of(graph.branches[0], EventKind::branch_point);
   ASSERT_EQ(points.size(), 2U);
   EXPECT_NEAR(points[1].state.lambda, -points[0].state.lambda, 1e-9);
-  EXPECT_TRUE(graph.records[1].mirrored);
-  EXPECT_EQ(graph.branches[1].end.reason, EndReason::joined);
+  EXPECT_TRUE(graph.records[1].mirror_image);
+  EXPECT_EQ(graph.branches[1].end.reason, EndReason::reached_branch);
   double least = infinity, greatest = -infinity;
   for (const Arc& arc : graph.branches[1].arcs) {
     const Vec2 moved = test::displacement_of(*truss, arc.to.state, 1);
@@ -168,14 +168,14 @@ TEST(VonMisesTruss, TheSwayBranchIsTheClosedFormAndJoinsBothBranchPoints) {
 TEST(VonMisesTruss, FollowingGoesOnWhereTheSwayEnds) {
   const auto truss = steep(TrussStrain::green).structure();
   const double L = std::sqrt(26.0), radius = std::sqrt(23.0), load = 2.0 * radius / (L * L * L);
-  const test::Graph graph = test::explore(*truss, down_to(*truss, 10.3), {.policy = BranchPolicy::follow});
+  const test::Graph graph = test::explore(*truss, down_to(*truss, 10.3), {.policy = BranchPolicy::most_stable});
   ASSERT_EQ(graph.records.size(), 3U);
   const Event met = only_event(graph.branches[1], EventKind::branch_point);
-  EXPECT_EQ(met.branching->type, BranchType::symmetric);
-  EXPECT_FALSE(met.suspected);
+  EXPECT_EQ(met.branching->type, BranchType::pitchfork);
+  EXPECT_FALSE(met.unconfirmed);
   EXPECT_NEAR(met.state.lambda, -load, 1e-9 * load);
   EXPECT_NEAR(descent(*truss, met.state), 5.0 + radius, 1e-8);
-  EXPECT_EQ(graph.branches[1].end.reason, EndReason::branched);
+  EXPECT_EQ(graph.branches[1].end.reason, EndReason::switched_branch);
   for (const EventKind kind : {EventKind::limit_point, EventKind::branch_point})
     EXPECT_TRUE(events_of(graph.branches[2], kind).empty());
   for (const Arc& arc : graph.branches[2].arcs) {

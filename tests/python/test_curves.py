@@ -1,4 +1,4 @@
-"""Curves of events, worst combinations and landings: against closed forms, and as the program has them.
+"""Curves of events, worst combinations and jumps: against closed forms, and as the program has them.
 
 Two bars of half-span b = 10 and rise h = 1 with Green strain, EA = 10⁴ and a spring k below the top: in the depth w the load is
 P = EA w (w − h)(w − 2h)/L³ + k w, L² = b² + h².
@@ -56,7 +56,7 @@ def sprung(bars):
 
 
 def curve_of(deck, **more):
-    return deck.curve("limit-point", "spring.0.stiffness.z", (0.5, 12.0), land=[4.0], **more)
+    return deck.curve("limit-point", "spring.0.stiffness.z", (0.5, 12.0), output_at=[4.0], **more)
 
 
 # P′ = 0 along the curve, and its cusp where P″ = 0 as well: w = h, k = P = EA h²/L³.
@@ -65,7 +65,7 @@ def test_a_curve_has_the_points_and_the_cusp_of_the_closed_form(sprung):
     w, k = -curve["w"], curve["key"]
     assert curve["lambda"] == pytest.approx(load_at(w, k), abs=1e-8)
     assert 1e4 * (3 * w**2 - 6 * w + 2) / L3 + k == pytest.approx(0.0, abs=1e-8)
-    assert len(curve) == len(w) > 10 and 4.0 in k and curve.value == 1.0 and curve.over == "spring.0.stiffness.z"
+    assert len(curve) == len(w) > 10 and 4.0 in k and curve.value == 1.0 and curve.parameter == "spring.0.stiffness.z"
     (cusp,) = curve.cusps
     assert cusp.key == pytest.approx(1e4 / L3, rel=1e-10) and cusp.lam == pytest.approx(1e4 / L3, rel=1e-7)
     assert k[cusp.point] == cusp.key and np.isnan(curve["slope"][cusp.point]) and cusp.why == "the number turns"
@@ -135,13 +135,13 @@ def test_a_curve_is_a_table_a_picture_and_a_pickle(sprung):
 
 
 def test_the_question_may_stand_in_the_deck(sprung):
-    table = {"event": {"kind": "limit-point"}, "over": "spring.0.stiffness.z", "range": [0.5, 3.0], "land": [2.0]}
+    table = {"event": {"kind": "limit-point"}, "parameter": "spring.0.stiffness.z", "range": [0.5, 3.0], "output_at": [2.0]}
     deck = sprung.copy({"curve": table})
     curve = deck.curve()
     assert curve["key"][[0, -1]].tolist() == [0.5, 3.0] and 2.0 in curve["key"] and curve.number == 1
-    second = deck.curve(number=2, range=(0.9, 1.1), land=[])
+    second = deck.curve(number=2, range=(0.9, 1.1), output_at=[])
     assert second.number == 2 and second["key"][-1] == 1.1 and second["lambda"][0] < curve["lambda"][0]
-    other = deck.curve(over="material.m.E", range=(0.9e4, 1.1e4))  # what the deck lands on was another number's
+    other = deck.curve(parameter="material.m.E", range=(0.9e4, 1.1e4))  # what the deck outputs at was another number's
     assert other["key"][0] == 0.9e4
     assert deck.worst(keys=["spring.0.stiffness.z"], radius=0.1).values["spring.0.stiffness.z"] == pytest.approx(0.9)
     assert deck["curve.range"] == [0.5, 3.0]  # the deck is as it was
@@ -167,7 +167,7 @@ def test_questions_that_are_wrong_are_refused(sprung):
         sprung.worst()
     with pytest.raises(NoAnswer, match="only 2 of kind limit-point, not 3"):
         sprung.curve("limit-point", key, (0.5, 2.0), number=3)
-    with pytest.raises(DeckError, match="there is no key over; worst"):
+    with pytest.raises(DeckError, match="there is no key parameter; worst"):
         sprung.copy({"curve": {"event": {"kind": "limit-point"}, "worst": [key], "radius": 0.1}}).curve()
 
 
@@ -204,57 +204,69 @@ def test_an_interrupt_stops_a_curve(channel):
 
 
 def test_a_search_finds_the_other_states_of_the_closed_form(bars):
-    more = {"path.search": True, "path.search_at": [1.0], "path.search_tries": 10, "path.stop.event": "limit-point"}
+    more = {"path.search": True, "path.search_at": [1.0], "path.search_guesses": 10, "path.stop.event": "limit-point"}
     path = bars.copy(more).trace()
     (at,) = path.search
     assert at.lam == 1.0 and at.known == 1 and sum(at.outcomes.values()) == at.tries >= 10
     assert [load_at(-found.monitors["w"]) for found in at.found] == pytest.approx([1.0, 1.0], abs=1e-9)
     assert sorted(found.unstable for found in at.found) == [0, 1]
-    assert all(found.became == "traced" and path.branches[found.branches[0]].found for found in at.found)
+    assert all(found.became == "traced" and path.branches[found.branches[0]].disconnected for found in at.found)
     assert not path.branches[0].found and path.branches[1].origin is None
     assert bars.trace().search == ()
 
 
-# --- landings ---------------------------------------------------------------------------------------------------------
+# --- jumps ---------------------------------------------------------------------------------------------------------
 
 
 # From w = h (1 − 1/√3) the truss falls to h (1 + 2/√3) and releases 7.3888900263118; it comes back by the same.
-def test_a_landing_is_that_of_the_closed_form(bars):
-    path = bars.trace(landing=True)
+def test_a_jump_is_that_of_the_closed_form(bars):
+    path = bars.trace(jumps=True)
     snap = path.events["limit-point"][0]
-    landing = snap.landing
-    assert landing.reason is None and landing.lam == snap.lam and landing.unstable == 0 and landing.on_branch == 0
-    assert landing.monitors["w"] == pytest.approx(-1 - 2 / np.sqrt(3), abs=1e-9)
-    assert landing.released == pytest.approx(7.3888900263118, abs=1e-9)
-    assert landing.back.lam == pytest.approx(-snap.lam, abs=1e-9) and landing.back.kind == "limit-point"
-    assert landing.back.landing.monitors["w"] == pytest.approx(2 / np.sqrt(3) - 1, abs=1e-9)
-    assert landing.loop == pytest.approx(14.777780052624, abs=1e-9)
-    assert landing.contacts == () and landing.word == ""
-    assert path.events["start"][0].landing is None  # which does not fall
-    assert bars.trace(landing=False).events["limit-point"][0].landing is None  # which was not asked
+    jump = snap.jump
+    assert jump.reason is None and jump.lam == snap.lam and jump.unstable == 0 and jump.on_branch == 0
+    assert jump.monitors["w"] == pytest.approx(-1 - 2 / np.sqrt(3), abs=1e-9)
+    assert jump.energy_released == pytest.approx(7.3888900263118, abs=1e-9)
+    assert jump.return_.lam == pytest.approx(-snap.lam, abs=1e-9) and jump.return_.kind == "limit-point"
+    assert jump.return_.jump.monitors["w"] == pytest.approx(2 / np.sqrt(3) - 1, abs=1e-9)
+    assert jump.energy_dissipated == pytest.approx(14.777780052624, abs=1e-9)
+    assert jump.contacts == () and jump.contact_pattern == ""
+    assert path.events["start"][0].jump is None  # which does not fall
+    assert bars.trace(jumps=False).events["limit-point"][0].jump is None  # which was not asked
 
 
-def test_landings_are_found_when_every_branch_has_its_end(bars):
-    path = bars.trace(landing=True, max_points=8)
-    assert not path.ended and all(event.landing is None for event in path.events)
-    assert path.resume().events["limit-point"][0].landing is not None
+def test_jumps_are_found_when_every_branch_has_its_end(bars):
+    path = bars.trace(jumps=True, max_points=8)
+    assert not path.ended and all(event.jump is None for event in path.events)
+    assert path.resume().events["limit-point"][0].jump is not None
     again = pickle.loads(pickle.dumps(path))
-    assert again.events == path.events and again.events["limit-point"][0].landing.back.landing is not None
+    assert again.events == path.events and again.events["limit-point"][0].jump.return_.jump is not None
 
 
 # The column snaps off one wall and comes to rest between both.
-def test_a_landing_among_walls_is_that_of_events_json(channel, program, tmp_path):
-    program("run", EXAMPLES / "channel.toml", "--quiet", "--no-pictures", "--set", "path.landing=true", "--out", tmp_path)
+def test_a_jump_among_walls_is_that_of_events_json(channel, program, tmp_path):
+    program("run", EXAMPLES / "channel.toml", "--quiet", "--no-pictures", "--set", "path.jumps=true", "--out", tmp_path)
     stored = json.loads((tmp_path / "events.json").read_text())["events"]
-    events = channel.trace(landing=True).events
-    assert [event.landing is not None for event in events] == ["landing" in event for event in stored]
-    landing, wanted = next((e.landing, s["landing"]) for e, s in zip(events, stored) if "landing" in s)
-    assert (landing.lam, landing.word, landing.released) == (wanted["lambda"], wanted["word"], wanted["released"])
-    assert [vars(contact) for contact in landing.contacts] == wanted["contacts"] and len(landing.contacts) > 1
-    assert landing.monitors == wanted["monitors"]
+    events = channel.trace(jumps=True).events
+    assert [event.jump is not None for event in events] == ["jump" in event for event in stored]
+    jump, wanted = next((e.jump, s["jump"]) for e, s in zip(events, stored) if "jump" in s)
+    assert (jump.lam, jump.contact_pattern, jump.energy_released) == (wanted["lambda"], wanted["contact_pattern"], wanted["energy_released"])
+    assert [vars(contact) for contact in jump.contacts] == wanted["contacts"] and len(jump.contacts) > 1
+    assert jump.monitors == wanted["monitors"]
 
 
-def test_a_landing_that_was_not_found_says_why():
-    landing = arcwall.events._landing_of({"lambda": 2.0, "reason": "falls_away", "why": "nothing holds it"})
-    assert (landing.lam, landing.reason, landing.why) == (2.0, "falls_away", "nothing holds it")
-    assert landing.released is None and landing.back is None and landing.monitors == {} and landing.contacts == ()
+def test_the_branch_map_is_that_of_branches_json(bars, tmp_path):
+    path = bars.trace(jumps=True)
+    path.save(tmp_path / "run", pictures=False)
+    stored, found = json.loads((tmp_path / "run" / "branches.json").read_text()), path.branch_map
+    assert [(one.lam[0], one.unstable) for one in found.segments] == [(s["lambda"][0], s["unstable"]) for s in stored["segments"]]
+    assert [(one.kind, one.start, one.end) for one in found.edges] == [(e["kind"], e["from"], e["to"]) for e in stored["edges"]]
+    assert [list(one.states) for one in found.ranges] == [one["states"] for one in stored["ranges"]]
+    snap = path.events["limit-point"][0]  # the segment that ends there is stable, the next one is not
+    assert (snap.extremum, found.segments[0].lam[1], found.segments[0].unstable) == ("maximum", snap.lam, 0)
+    assert found.segments[1].unstable == 1 and "jump" in {one.kind for one in found.edges}
+
+
+def test_a_jump_that_was_not_found_says_why():
+    jump = arcwall.events._jump_of({"lambda": 2.0, "reason": "no_equilibrium", "why": "nothing holds it"})
+    assert (jump.lam, jump.reason, jump.why) == (2.0, "no_equilibrium", "nothing holds it")
+    assert jump.energy_released is None and jump.return_ is None and jump.monitors == {} and jump.contacts == ()

@@ -52,8 +52,8 @@ def test_what_was_set_before_is_not_kept(channel):
     channel["load.0.constant"] = False
     channel["load"] = [{"at": "right", "force": [-2.0, 0.0]}]
     assert channel["load"] == [{"at": "right", "force": [-2.0, 0.0]}] and channel.check() == []
-    deck = channel.copy({"curve": {"event": {"kind": "limit-point"}}, "curve.over": "material.steel.E"})
-    deck["curve"] = {"event": {"kind": "branch-point"}, "over": "material.steel.E", "range": [1.0, 1e5]}
+    deck = channel.copy({"curve": {"event": {"kind": "limit-point"}}, "curve.parameter": "material.steel.E"})
+    deck["curve"] = {"event": {"kind": "branch-point"}, "parameter": "material.steel.E", "range": [1.0, 1e5]}
     assert deck["curve.event.kind"] == "branch-point" and deck["curve.range"] == [1.0, 1e5]
 
 

@@ -107,7 +107,7 @@ def test_a_path_is_traced_a_point_at_a_time(channel):
 def test_objects_are_shown_in_a_line(channel):
     path = channel.trace(max_points=3)
     start = path.events[0]
-    assert repr(start).startswith("Event(id=0, kind='start', branch=0") and "landing" not in repr(start)
+    assert repr(start).startswith("Event(id=0, kind='start', branch=0") and "jump" not in repr(start)
     assert eval(repr(start), {"Event": arcwall.Event}) == start
     assert repr(path.points) == "<3 points of a path>" and "3 points" in repr(path.tracing())
     assert len(repr(path.shape(0))) < 400
@@ -185,7 +185,7 @@ def test_branches_say_where_they_leave():
     branch = path.branches[1]
     origin = path.events[branch.origin]
     assert branch.parent == origin.branch and branch.id in origin.branches
-    assert origin.type == "symmetric" and set(origin.mode) == set(path.monitors)
+    assert origin.type == "pitchfork" and set(origin.mode) == set(path.monitors)
     assert sum(one.points for one in path.branches) == len(path)
 
 

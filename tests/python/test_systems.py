@@ -87,7 +87,7 @@ def test_energies_are_those_of_the_system():
 def test_branches_of_a_pitchfork_are_all_traced():
     path = arcwall.trace(pitchfork(), [0.0], -1.0, stop={"lambda": (-1.5, 1.0)}, branches="all", step=0.1)
     (point,) = path.events["branch-point"]
-    assert point.type == "symmetric" and point.lam == pytest.approx(0.0, abs=1e-9) and point.mode.shape == (1,)
+    assert point.type == "pitchfork" and point.lam == pytest.approx(0.0, abs=1e-9) and point.mode.shape == (1,)
     assert len(path.branches) == 3 and point.branches == (1, 2)
     for branch in (1, 2):
         on = path["branch"] == branch
@@ -139,7 +139,7 @@ def test_event_functions_are_located():
 
 
 def test_values_are_landed_on_and_bounds_of_unknowns_stop():
-    path = arcwall.trace(fold(), [1.0], -1.0, land={"lambda": [-0.5], 0: [0.25]}, stop={0: (-0.75, 2.0)}, watch=[0])
+    path = arcwall.trace(fold(), [1.0], -1.0, output_at={"lambda": [-0.5], 0: [0.25]}, stop={0: (-0.75, 2.0)}, watch=[0])
     assert -0.5 in path["lambda"] and path.x[-1, 0] == pytest.approx(-0.75, abs=1e-12)
     assert path.events[-1].end.detail == "x[0] = -0.75"
     assert np.min(abs(path.x[:, 0] - 0.25)) < 1e-12
@@ -421,7 +421,7 @@ def test_starts_that_are_none_are_refused():
         dict(stop={"lambda": (1, 0)}),
         dict(stop={"lambda": (0, 1, 2)}),
         dict(stop={"lambda": 1.0}),
-        dict(land={"lambda": 1.0}),
+        dict(output_at={"lambda": 1.0}),
         dict(step="long"),
         dict(watch=[5]),
         dict(weights=[1.0, 2.0]),
@@ -435,7 +435,7 @@ def test_options_that_mean_nothing_are_refused(options):
 
 
 def test_options_of_other_kinds_are_refused():
-    for option in ("stop", "land", "events", "monitors"):
+    for option in ("stop", "output_at", "events", "monitors"):
         with pytest.raises(TypeError, match=f"{option} is a dict, not list"):
             arcwall.trace(fold(), [1.0], -1.0, **{option: [3]})
     with pytest.raises(TypeError, match=r"give Pendulums\(…\), not the class"):
@@ -443,7 +443,7 @@ def test_options_of_other_kinds_are_refused():
     for lam0 in ([0.0], "x", math.nan, None):
         with pytest.raises(ValueError, match="lam0 = .* is no finite number"):
             arcwall.trace(fold(), [1.0], lam0)
-    assert len(trace(fold(), watch=0).events["displacement-limit"]) == 0
+    assert len(trace(fold(), watch=0).events["turning-point"]) == 0
 
 
 def test_event_functions_that_are_none_are_refused():

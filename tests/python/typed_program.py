@@ -8,20 +8,20 @@ import arcwall
 
 deck = arcwall.Deck.load("channel.toml")
 assert_type(deck.check(), list[arcwall.Diagnostic])
-path = deck.trace(landing=True, sensitivity=["material.steel.E"], max_seconds=2.0).resume()
+path = deck.trace(jumps=True, sensitivity=["material.steel.E"], max_seconds=2.0).resume()
 assert_type(path, arcwall.Path)
 assert_type(path["lambda"], np.ndarray[Any, Any])
 limit = path.events["limit-point"][0]
 assert_type(limit, arcwall.Event)
 assert_type(limit.sensitivity["material.steel.E"], Optional[float])
-assert_type(limit.landing, Optional[arcwall.Landing])
-if limit.landing is not None and limit.landing.back is not None:
-    assert_type(limit.landing.back.landing, Optional[arcwall.Landing])
-    assert_type([contact.wall for contact in limit.landing.contacts], list[str])
+assert_type(limit.jump, Optional[arcwall.Jump])
+if limit.jump is not None and limit.jump.return_ is not None:
+    assert_type(limit.jump.return_.jump, Optional[arcwall.Jump])
+    assert_type([contact.wall for contact in limit.jump.contacts], list[str])
 for point in deck.tracing():
     assert_type(point.contacts[0].force, Optional[float])
 assert_type(path.shape(limit.point).members["column"].moment, np.ndarray[Any, Any])
-curve = deck.curve("limit-point", "wall.upper.profile.z", (0.1, 0.3), land=[0.2])
+curve = deck.curve("limit-point", "wall.upper.profile.z", (0.1, 0.3), output_at=[0.2])
 assert_type([cusp.key for cusp in curve.cusps], list[float])
 worst = deck.worst("limit-point", ["wall.upper.profile.z"], 0.01, number=1)
 assert_type(worst.deck.converge(levels=2).events[0].extrapolated, float)

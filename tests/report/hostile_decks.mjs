@@ -103,8 +103,8 @@ point = { left = [-15.0, 0.0], top = [0.0, 0.6], right = [15.0, 0.0] }
 support = { left = ["x", "z", "rotation"], right = ["x", "z", "rotation"] }
 path = { step = 0.05, branches = "primary", max_points = 40, stop = { lambda = [-1.0, 2.0] } }
 [member]
-west = { from = "left", to = "top", theory = "classic", material = "steel", section = "bar", elements = 4 }
-east = { from = "top", to = "right", theory = "classic", material = "steel", section = "bar", elements = 4 }
+west = { from = "left", to = "top", theory = "euler-bernoulli", material = "steel", section = "bar", elements = 4 }
+east = { from = "top", to = "right", theory = "euler-bernoulli", material = "steel", section = "bar", elements = 4 }
 [[load]]
 at = "top"
 force = [0.0, -1.0]

@@ -337,13 +337,13 @@ test('hostile texts inject nothing', async () => {
   console.log(`${texts} hostile texts in ${decks.length} pages`);
 });
 
-test('the atlas has a line a state and says which are stable', async () => {
+test('the map has a line a state and says which are stable', async () => {
   for (const viewport of [desktop, phone]) {
     const { page, finish } = await open(channel, { viewport });
     const found = await page.evaluate(() => {
-      const boxes = [...document.querySelectorAll('#atlas g text')].map((text) => text.getBoundingClientRect());
+      const boxes = [...document.querySelectorAll('#branch-map g text')].map((text) => text.getBoundingClientRect());
       return {
-        states: [...document.querySelectorAll('#atlas g text')].map((text) => text.textContent),
+        states: [...document.querySelectorAll('#branch-map g text')].map((text) => text.textContent),
         apart: boxes.every((box, i) => i === 0 || box.top > boxes[i - 1].top),
         rows: [...document.querySelectorAll('#stable tbody tr')].map((row) => row.cells[3].textContent),
         width: document.documentElement.scrollWidth,

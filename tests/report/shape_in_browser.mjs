@@ -64,8 +64,8 @@ point = { foot = [0.0, 0.0], knee = [0.0, 10.0], end = [10.0, 10.0] }
 support = { foot = ["x", "z", "rotation"] }
 path = { step = 0.5, stop = { lambda = [-1.0, 1.0] } }
 [member]
-post = { from = "foot", to = "knee", theory = "classic", material = "steel", section = "bar", elements = 4 }
-arm = { from = "knee", to = "end", theory = "classic", material = "steel", section = "bar", elements = 4 }
+post = { from = "foot", to = "knee", theory = "euler-bernoulli", material = "steel", section = "bar", elements = 4 }
+arm = { from = "knee", to = "end", theory = "euler-bernoulli", material = "steel", section = "bar", elements = 4 }
 [[load]]
 at = "end"
 force = [0.0, -1.0e-4]

@@ -10,7 +10,7 @@ namespace arcwall::test {
 /// How the beams of a model are computed.
 struct BeamTheory {
   std::string name = "classic";
-  Theory theory = Theory::classic;
+  Theory theory = Theory::euler_bernoulli;
   int order = 2;        ///< as in MemberDescription
   int convergence = 4;  ///< exponent of the element length in the error
   int on_circles = 6;   ///< the same where the axis bends to a circle; 0: exact
@@ -25,8 +25,9 @@ inline std::vector<BeamTheory> elastica_theories() {
 
 /// Theories whose limit is Reissner's beam: extensible and flexible in shear.
 inline std::vector<BeamTheory> shear_theories() {
-  return {{.name = "exact, linear", .theory = Theory::exact, .order = 1, .convergence = 2, .on_circles = 2, .finer = 2},
-          {.name = "exact, quadratic", .theory = Theory::exact, .order = 2, .convergence = 4, .on_circles = 4}};
+  return {
+      {.name = "exact, linear", .theory = Theory::reissner, .order = 1, .convergence = 2, .on_circles = 2, .finer = 2},
+      {.name = "exact, quadratic", .theory = Theory::reissner, .order = 2, .convergence = 4, .on_circles = 4}};
 }
 
 /// Theories of both kinds, for models in which no force shears or stretches the beam.

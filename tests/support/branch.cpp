@@ -54,12 +54,12 @@ void expect_same_events(const std::vector<Event>& found, const std::vector<Event
     EXPECT_EQ(found[i].kind, expected[i].kind);
     EXPECT_EQ(found[i].label, expected[i].label);
     EXPECT_EQ(found[i].guards, expected[i].guards);
-    EXPECT_EQ(found[i].suspected, expected[i].suspected);
+    EXPECT_EQ(found[i].unconfirmed, expected[i].unconfirmed);
     EXPECT_EQ(found[i].unstable_before, expected[i].unstable_before);
     EXPECT_EQ(found[i].unstable_after, expected[i].unstable_after);
-    const bool turns = expected[i].kind == EventKind::displacement_limit;
+    const bool turns = expected[i].kind == EventKind::turning_point;
     const double lambda = expected[i].state.lambda, relative = turns ? how.at_displacement_limits : how.relative;
-    const double uncertain = found[i].localised + expected[i].localised;
+    const double uncertain = found[i].lambda_uncertainty + expected[i].lambda_uncertainty;
     EXPECT_NEAR(found[i].state.lambda, lambda, relative * std::abs(lambda) + uncertain);
   }
 }

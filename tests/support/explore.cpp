@@ -33,7 +33,7 @@ void expect_same_graphs(const Graph& found, const Graph& expected, const SameEve
     SCOPED_TRACE("branch " + std::to_string(i));
     const BranchRecord &a = found.records[i], &b = expected.records[i];
     EXPECT_EQ(a.parent, b.parent);
-    EXPECT_EQ(a.mirrored, b.mirrored);
+    EXPECT_EQ(a.mirror_image, b.mirror_image);
     EXPECT_EQ(found.branches[i].end.reason, expected.branches[i].end.reason);
     EXPECT_EQ(found.branches[i].end.partner, expected.branches[i].end.partner);
     expect_same_events(events_of(found.branches[i]), events_of(expected.branches[i]), how);

@@ -84,11 +84,11 @@ void expect_count(const System& system, const Arc& arc, const TraceOptions& opti
 void expect_extremum(const Event& event, const PathPoint& before, const PathPoint& after) {
   const double rise = event.state.lambda - before.state.lambda, fall = event.state.lambda - after.state.lambda;
   // Events are localised to 1e-10 in λ, or better; a bracket may say less than a tangent near a singular point is sure.
-  const double bracket = std::max(event.localised, 1e-10 * std::max(1.0, std::abs(event.state.lambda)));
+  const double bracket = std::max(event.lambda_uncertainty, 1e-10 * std::max(1.0, std::abs(event.state.lambda)));
   EXPECT_TRUE((rise >= -bracket && fall >= -bracket) || (rise <= bracket && fall <= bracket))
       << "lambda " << before.state.lambda << " -> " << event.state.lambda << " -> " << after.state.lambda;
-  EXPECT_GE(event.localised, 0.0);
-  EXPECT_LE(event.localised, 1e-10 * std::max(1.0, std::abs(event.state.lambda)));
+  EXPECT_GE(event.lambda_uncertainty, 0.0);
+  EXPECT_LE(event.lambda_uncertainty, 1e-10 * std::max(1.0, std::abs(event.state.lambda)));
 }
 
 void expect_changes(const Event& event, const Piece& before, const Piece& after) {
@@ -123,7 +123,7 @@ Vector bordered_allowance(const SlidingContact& system, const State& state, cons
 
 bool changes_here(const Arc& arc) {
   return std::any_of(arc.events.begin(), arc.events.end(), [](const Event& event) {
-    return event.kind != EventKind::start && event.kind != EventKind::displacement_limit;
+    return event.kind != EventKind::start && event.kind != EventKind::turning_point;
   });
 }
 

@@ -51,6 +51,7 @@ class SpreadingToy final : public LayoutToy {
   State on_span(double x) const { return state_on(1, Vector{{x, 2.0 * (x - 1.0)}}, lambda_on_span(x)); }
 
   Index size(const Piece& piece) const override { return 1 + layout_of(piece); }
+  Index separate_contacts(const Piece&) const override { return 1; }  // the span is a contact zone
   void residual(const State& s, Eigen::Ref<Vector> F) const override {
     F[0] = s.x[0] - s.lambda;
     if (layout_of(s.piece) == 0) return;

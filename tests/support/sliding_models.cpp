@@ -121,7 +121,7 @@ std::vector<ExploredBranch> follow(const System& system, const State& start, con
                                    std::vector<std::shared_ptr<const Observable>> preference,
                                    std::vector<Watch> watched) {
   Explorer explorer(system, start, options, std::move(watched),
-                    {.policy = BranchPolicy::follow, .preference = std::move(preference)});
+                    {.policy = BranchPolicy::most_stable, .preference = std::move(preference)});
   std::vector<ExploredBranch> branches;
   std::size_t points = 0;
   while (auto step = explorer.next()) {

@@ -15,7 +15,9 @@ namespace arcwall {
 
 /// In the names of tests.
 inline void PrintTo(Theory theory, std::ostream* out) {
-  *out << (theory == Theory::classic ? "classic" : theory == Theory::elastica ? "elastica" : "another theory");
+  *out << (theory == Theory::euler_bernoulli ? "euler-bernoulli"
+           : theory == Theory::elastica      ? "elastica"
+                                             : "another theory");
 }
 
 }  // namespace arcwall
@@ -60,7 +62,7 @@ struct SlidingChannel {
   ContinuumChoice continuum = ContinuumChoice::symmetric;
   double end_moment = 0.0;  ///< at the left end, times λ
   double lateral = 0.0;     ///< along all members in z, times λ [per length]
-  Theory theory = Theory::classic;
+  Theory theory = Theory::euler_bernoulli;
   bool reversed = false;  ///< members run from right to left
   double first_step = 0.05;
   double cm = 1.0, kN = 1.0;  ///< the user's units [1/cm], [1/kN]
@@ -83,7 +85,7 @@ struct SlidingFoundation {
 /// one slides along x.
 struct SlidingCylinder {
   int elements = 20;
-  Theory theory = Theory::classic;
+  Theory theory = Theory::euler_bernoulli;
 
   SlidingModel model() const;
 };

@@ -45,7 +45,7 @@ const line_traces = ({ across, up }) => {
   return [...traces.values()];
 };
 
-// Where the structure falls to from a loss of stability, λ held: over monitors alone, of which landings tell.
+// Where the structure falls to from a loss of stability, λ held: over monitors alone, of which jumps tell.
 const fall_arrows = ({ across, up }) => {
   const monitor = columns.findIndex(({ name }) => name === across.key);
   if (up !== load || monitor < 0) return [];
@@ -99,7 +99,7 @@ const drawn_events = ({ across, up }, view, size) => {
     return true;
   };
   const few = 40;
-  const is_contact = ({ kind }) => /^contact-(closes|opens|spreads|gathers|passes)$/.test(kind);
+  const is_contact = ({ kind }) => /^contact(-(closes|opens|spreads|splits|shrinks|transfers)|s-merge)$/.test(kind);
   if (events.filter(is_contact).length <= few) return events;
   return events.filter((event) => !is_contact(event) || is_free(event));
 };

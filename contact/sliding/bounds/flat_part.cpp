@@ -117,7 +117,7 @@ Row LoadedPartBound::gradient(const SlidingSetting& setting, const SlidingState&
 }
 
 std::vector<Transition> LoadedPartBound::transitions(const SlidingSetting&, const SlidingState&, const Arrival&) const {
-  return {unsupported("a part that lies on a wall without pressure buckles beside a point load")};
+  return {unsupported("a contact zone without pressure buckles beside a point load")};
 }
 
 }  // namespace arcwall::sliding

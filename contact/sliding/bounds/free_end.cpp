@@ -92,7 +92,8 @@ Row UprightBound::gradient(const SlidingSetting& setting, const SlidingState& at
 }
 
 std::vector<Transition> UprightBound::transitions(const SlidingSetting&, const SlidingState&, const Arrival&) const {
-  return {unsupported("the free end of a member stands upright against a wall: its other corner would touch")};
+  return {unsupported(
+      "the free end of a member is perpendicular to the wall: the other corner of its section would touch")};
 }
 
 }  // namespace arcwall::sliding

@@ -26,7 +26,8 @@ std::vector<Transition> LengthBound::transitions(const SlidingSetting& setting, 
   std::vector<Transition> transitions{span_vanishes(setting, at, point_, arrival)};
   for (Transition& other : neighbours_vanish(setting, at, arrival.forward, point_))
     transitions.push_back(std::move(other));
-  transitions.push_back(unsupported("a stretch between contacts closes, and no equilibrium without it was found"));
+  transitions.push_back(
+      unsupported("the free span between two contacts closes, but no equilibrium with one merged contact was found"));
   return transitions;
 }
 

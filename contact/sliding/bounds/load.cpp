@@ -189,7 +189,7 @@ Row LoadBesidePartBound::gradient(const SlidingSetting& setting, const SlidingSt
 std::vector<Transition> LoadBesidePartBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                          const Arrival& arrival) const {
   if (scaled_push(setting, at, load_) < 0.0)
-    return {unsupported("a part that lies on a wall reached a point load that pulls it off")};
+    return {unsupported("a contact zone reached a point load that pulls the member off the wall")};
   return {handed_on(setting, at, arrival.forward, load_, true)};
 }
 

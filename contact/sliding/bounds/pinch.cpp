@@ -33,8 +33,8 @@ BoundPlace PinchBound::place(const SlidingSetting& setting, const SlidingState& 
 std::vector<Transition> PinchBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                 const Arrival&) const {
   const std::vector<std::size_t> touched = obstacles_at(setting, at.layout, point_);
-  return {unsupported("a member that walls " + setting.obstacles[touched[0]].name + " and " +
-                      setting.obstacles[touched[1]].name + " hold between them bends round one of them")};
+  return {unsupported("a member between walls " + setting.obstacles[touched[0]].name + " and " +
+                      setting.obstacles[touched[1]].name + " bends round one of them")};
 }
 
 }  // namespace arcwall::sliding

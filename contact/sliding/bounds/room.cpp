@@ -22,7 +22,7 @@ std::vector<Transition> RoomBound::transitions(const SlidingSetting& setting, co
     if (k < 0 || at.is_closed(point)) continue;
     return {without_point(setting, at, arrival.forward, point)};
   }
-  return {unsupported("a contact point reached the end of its member, or another wall's contact")};
+  return {unsupported("a contact point reached the end of its member, or a contact with another wall")};
 }
 
 }  // namespace arcwall::sliding

@@ -89,7 +89,7 @@ Row StraightEndBound::gradient(const SlidingSetting& setting, const SlidingState
 
 std::vector<Transition> StraightEndBound::transitions(const SlidingSetting&, const SlidingState&,
                                                       const Arrival&) const {
-  return {unsupported("a member that lies on a wall from end to end comes to where the wall bends or ends")};
+  return {unsupported("a member that rests on a wall along its whole length reached a bend or the end of the wall")};
 }
 
 }  // namespace arcwall::sliding

@@ -32,7 +32,7 @@ std::vector<Transition> TailBound::transitions(const SlidingSetting& setting, co
                                                const Arrival& arrival) const {
   if (gathers_at_support(setting, at)) return parts_gather_at_clamps(setting, at, arrival);
   if (at.layout.points()[point_].is_pinched())
-    return {unsupported("the end of a member slides out from between the walls that hold it")};
+    return {unsupported("the end of a member slides out from between two walls")};
   if (!at.is_closed(point_)) return {without_point(setting, at, arrival.forward, point_)};
   return contacts_come_to_tips(setting, at, arrival);
 }

@@ -48,8 +48,9 @@ class ProgramTest : public testing::Test {
 };
 
 /// What a run of a deck without walls writes.
-inline const std::set<std::string> run_outputs{"atlas.json", "checkpoint",  "deck.toml",   "events.json", "events.txt",
-                                               "path.csv",   "report.html", "result.json", "shapes",      "shapes.pvd"};
+inline const std::set<std::string> run_outputs{"branches.json", "checkpoint", "deck.toml",   "events.json",
+                                               "events.txt",    "path.csv",   "report.html", "result.json",
+                                               "shapes",        "shapes.pvd"};
 
 /// Steps so small that the run would take minutes.
 inline const std::string endless =

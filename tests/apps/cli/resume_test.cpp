@@ -134,7 +134,7 @@ TEST_F(ProgramTest, ARunThatCouldGoOnIsNotReplacedWithoutAWord) {
   ASSERT_EQ(run("run truss.toml --max-points 3").status, 6);
   expect_in(
       "note: truss holds a run of this deck that had not ended (3 points); it is traced anew. `trace-path resume "
-      "truss` would have gone on with it",
+      "truss` would have continued it",
       run("run truss.toml --max-points 3").err);
   EXPECT_EQ(run("run truss.toml --max-points 3 --set path.step=0.01").err.find("holds a run"), std::string::npos);
   ASSERT_EQ(run("run truss.toml").status, 0);

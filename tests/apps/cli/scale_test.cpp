@@ -20,7 +20,7 @@ class ScaleTest : public ProgramTest {
     deck << "[support]\np0 = [\"x\", \"z\"]\np" << count << " = [\"z\"]\n[member]\n";
     for (int i = 0; i < count; ++i)
       deck << "m" << i << " = { from = \"p" << i << "\", to = \"p" << i + 1
-           << "\", theory = \"classic\", material = \"s\", section = \"r\", elements = 1 }\n";
+           << "\", theory = \"euler-bernoulli\", material = \"s\", section = \"r\", elements = 1 }\n";
     deck << "[[load]]\nat = \"p" << count << "\"\nforce = [-1, 0]\n[path]\nstep = 1e-9\nmax_points = 3\n" << more;
     put(work() / "row.toml", deck.str());
   }
@@ -34,11 +34,14 @@ class ScaleTest : public ProgramTest {
            "point = { a = [0, 0], b = ["
         << elements
         << ", 0] }\nsupport = { a = [\"x\", \"z\"], b = [\"z\"] }\n"
-           "[member.m]\nfrom = \"a\"\nto = \"b\"\ntheory = \"classic\"\nmaterial = \"s\"\nsection = \"r\"\nelements = "
+           "[member.m]\nfrom = \"a\"\nto = \"b\"\ntheory = \"euler-bernoulli\"\nmaterial = \"s\"\nsection = "
+           "\"r\"\nelements = "
         << elements
         << "\nimperfection = { shape = \"sine\", amplitude = 0.01, waves = 1 }\n[[load]]\nat = \"b\"\nforce = [-1, 0]\n"
-           "[[wall]]\nname = \"up\"\nside = \"above\"\nacts_on = \"axis\"\nprofile = { type = \"flat\", z = 1 }\n"
-           "[[wall]]\nname = \"low\"\nside = \"below\"\nacts_on = \"axis\"\nprofile = { type = \"flat\", z = -1 }\n"
+           "[[wall]]\nname = \"up\"\nside = \"above\"\ncontact_surface = \"axis\"\nprofile = { type = \"flat\", z = 1 "
+           "}\n"
+           "[[wall]]\nname = \"low\"\nside = \"below\"\ncontact_surface = \"axis\"\nprofile = { type = \"flat\", z = "
+           "-1 }\n"
            "[contact]\npoints = \""
         << contact << "\"\n[path]\nstep = 1e-9\nmax_points = 2\n";
     put(work() / "column.toml", deck.str());
@@ -71,7 +74,7 @@ TEST_F(ScaleTest, CandidatesOfWallsAreFoundByTheirNodesSlow) {
 
 // Each element had a copy of all unknowns: 10 000 elements took 2.4 GB and 10 s, with contact at nodes 22 s.
 TEST_F(ScaleTest, VerifyTakesMemoryInProportionToTheElementsSlow) {
-  for (const char* contact : {"sliding", "nodes"}) {
+  for (const char* contact : {"moving", "nodes"}) {
     put_column(10000, contact);
     ASSERT_EQ(run("run column.toml --quiet --force --no-pictures").status, 6) << contact;
     const Outcome outcome = shell("ulimit -t 6; ulimit -v 700000; \"$PROGRAM\" verify column --quiet");
@@ -81,11 +84,12 @@ TEST_F(ScaleTest, VerifyTakesMemoryInProportionToTheElementsSlow) {
 
 // Each wall was held against each other one, and looked for among all candidates: 10 000 walls took 17 s.
 TEST_F(ScaleTest, WallsAreFoundByTheirNamesAndHeightsSlow) {
-  put_column(10, "sliding");
+  put_column(10, "moving");
   std::ofstream deck(work() / "column.toml", std::ios::app);
   for (int i = 0; i < 20000; ++i)
     deck << "[[wall]]\nname = \"w" << i
-         << "\"\nside = \"below\"\nacts_on = \"axis\"\nprofile = { type = \"flat\", z = " << -2 - 1e-4 * i << " }\n";
+         << "\"\nside = \"below\"\ncontact_surface = \"axis\"\nprofile = { type = \"flat\", z = " << -2 - 1e-4 * i
+         << " }\n";
   deck.close();
   for (const char* points : {"", " --set contact={}"}) {
     const Outcome outcome = shell("ulimit -t 6; \"$PROGRAM\" check column.toml" + std::string(points));

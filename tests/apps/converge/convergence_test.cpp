@@ -107,8 +107,8 @@ support = { A = ["x", "z", "rotation"] }
 load = [{ at = "B", force = [0.0, -1.0] }]
 path = { step = 0.05, stop = { lambda = [-1.0, 1.0] } }
 contact = { points = "nodes", method = "penalty", penalty = 1000.0 }
-wall = [{ name = "near", side = "below", acts_on = "axis", profile = { type = "parabola", apex = [1.0, -0.05], curvature = -20.0 } }, { name = "far", side = "below", acts_on = "axis", profile = { type = "parabola", apex = [2.0, -0.3], curvature = -0.5 } }]
-member.c = { from = "A", to = "B", theory = "classic", elements = 8, material = "m", section = "s" }
+wall = [{ name = "near", side = "below", contact_surface = "axis", profile = { type = "parabola", apex = [1.0, -0.05], curvature = -20.0 } }, { name = "far", side = "below", contact_surface = "axis", profile = { type = "parabola", apex = [2.0, -0.3], curvature = -0.5 } }]
+member.c = { from = "A", to = "B", theory = "euler-bernoulli", elements = 8, material = "m", section = "s" }
 )toml";
   const auto study = converge(deck::read_deck_text(text, "hills.toml"), {});
   ASSERT_TRUE(study);

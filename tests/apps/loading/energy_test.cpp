@@ -21,7 +21,7 @@ constant = true
 [path]
 step = 0.05
 branches = "primary"
-land = { lambda = [0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875] }
+output_at = { lambda = [0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875] }
 [path.stop]
 lambda = [-0.1, 1.0]
 )");

@@ -22,15 +22,15 @@ point = {{ A = [-60.0, 0.0], B = [60.0, 0.0] }}
 member.beam = {{ from = "A", to = "B", theory = "elastica", material = "m", section = "s", elements = 24 }}
 [[wall]]
 name = "left"
-acts_on = "axis"
+contact_surface = "axis"
 outline = {{ type = "circle", centre = [-50.0, {0:.17g}], radius = 5.0 }}
 [[wall]]
 name = "right"
-acts_on = "axis"
+contact_surface = "axis"
 outline = {{ type = "circle", centre = [50.0, {0:.17g}], radius = 5.0 }}
 [[wall]]
 name = "nose"
-acts_on = "axis"
+contact_surface = "axis"
 outline = {{ type = "circle", centre = [0.0, {1:.17g}], radius = 5.0 }}
 motion = {{ z = -1.0 }}
 [path]
@@ -65,7 +65,7 @@ force = [1.0, 0.0]
 [[wall]]
 name = "catch"
 side = "below"
-acts_on = "axis"
+contact_surface = "axis"
 members = ["nose"]
 profile = { type = "parabola", apex = [25.0, -0.5], curvature = -0.2 }
 [path]
@@ -137,7 +137,7 @@ TEST(LooseBodies, AreNotFollowedWhereNothingHoldsThem) {
   const TracedDeck lost(pushed_hook + "lambda = [-1.0, 1.0]\n", {"load.0.force=[-1.0, 0.0]"});
   const auto& end = lost.record().branches.back().end;
   ASSERT_TRUE(end.has_value());
-  EXPECT_EQ(end->reason, EndReason::adrift);
+  EXPECT_EQ(end->reason, EndReason::rigid_body_motion);
   EXPECT_NE(end->detail.find("\"base\""), std::string::npos) << end->detail;
 }
 
@@ -163,12 +163,12 @@ over = { from = "east", to = "west", via = [0.0, 30.0], theory = "elastica", mat
 [[wall]]
 name = "floor"
 side = "below"
-acts_on = "axis"
+contact_surface = "axis"
 profile = { type = "flat", z = -30.0 }
 [[wall]]
 name = "plate"
 side = "above"
-acts_on = "axis"
+contact_surface = "axis"
 profile = { type = "flat", z = 30.0 }
 motion = { z = -1.0 }
 [path]

@@ -45,7 +45,7 @@ stop = { lambda = [-1.0, 90.0] }
 TEST(Prescribed, AColumnInAChannelSnapsAtItsGreatestShortening) {
   const TracedDeck traced(shortened_channel(centimetres));
   for (const Pushed& expected : {Pushed{EventKind::contact_closes, 0.032143539028, 0.430672151315, 0, 0},
-                                 Pushed{EventKind::contact_spreads, 0.05094848886, 1.713687836575, 0, 0},
+                                 Pushed{EventKind::contact_splits, 0.05094848886, 1.713687836575, 0, 0},
                                  Pushed{EventKind::limit_point, 0.140743077449, 6.863020510418, 0, 1},
                                  Pushed{EventKind::limit_point, 0.13624180266, 6.211668066388, 1, 0},
                                  Pushed{EventKind::contact_closes, 0.313633947801, 4.252069687267, 0, 0}}) {
@@ -104,15 +104,15 @@ TEST(Prescribed, LeesFrameSnapsWhereItsDeflectionTurns) {
   bool behind_first = false;
   for (auto point = points.begin(); point != points.end(); ++point) {
     behind_first = behind_first || point->lambda > 48.735137245104;
-    if (std::abs(point - least) <= 1 || !point->unstable_dead) continue;
-    EXPECT_EQ(*point->unstable_dead, behind_first && point < least ? 1 : 0) << point->lambda;
+    if (std::abs(point - least) <= 1 || !point->unstable_load_control) continue;
+    EXPECT_EQ(*point->unstable_load_control, behind_first && point < least ? 1 : 0) << point->lambda;
   }
   expect_confirmed(traced);
 }
 
 TEST(Prescribed, LeesFrameSnapsWithTheOrderOfTheTheory) {
   constexpr double reference = 61.002978851425;
-  for (const auto& [theory, order] : {std::pair("elastica", 5.0), std::pair("classic", 3.5)}) {
+  for (const auto& [theory, order] : {std::pair("elastica", 5.0), std::pair("euler-bernoulli", 3.5)}) {
     SCOPED_TRACE(theory);
     std::vector<double> errors;
     for (const int times : {2, 4, 8}) {
@@ -139,8 +139,8 @@ TEST(Prescribed, PassesThroughTheStatesOfADeadLoad) {
   by_force.replace(by_force.find("[[prescribed]]"), 0, "[[load]]\nat = \"loaded\"\nforce = [0.0, -1.0]\n");
   by_force.erase(by_force.find("[[prescribed]]"), by_force.find("[path]") - by_force.find("[[prescribed]]"));
   const TracedDeck moved(pushed_lees_frame + monitors + force,
-                         {"path.land={ lambda = [10.0, 30.0, 55.0] }", "path.stop={ lambda = [-1.0, 60.0] }"});
-  const TracedDeck loaded(by_force + monitors, {"path.land={ push = [10.0, 30.0, 55.0] }",
+                         {"path.output_at={ lambda = [10.0, 30.0, 55.0] }", "path.stop={ lambda = [-1.0, 60.0] }"});
+  const TracedDeck loaded(by_force + monitors, {"path.output_at={ push = [10.0, 30.0, 55.0] }",
                                                 "path.stop={ push = [-1.0, 60.0] }", "path.step=0.1"});
   for (const double way : {10.0, 30.0, 55.0}) {
     SCOPED_TRACE(way);
@@ -196,8 +196,8 @@ stop = { lambda = [-0.5, 10.5] }
   for (const RecordPoint& point : traced.record().points) {
     const double way = std::min(point.lambda, 10.0 - point.lambda);  // of either side
     if (std::abs(way - sway) < 1e-6 || std::abs(way - limit) < 1e-6) continue;
-    ASSERT_TRUE(point.unstable_dead.has_value()) << point.lambda;
-    EXPECT_EQ(*point.unstable_dead, way < sway ? 0 : way < limit ? 1 : 2) << point.lambda;
+    ASSERT_TRUE(point.unstable_load_control.has_value()) << point.lambda;
+    EXPECT_EQ(*point.unstable_load_control, way < sway ? 0 : way < limit ? 1 : 2) << point.lambda;
   }
   expect_confirmed(traced);
 }
@@ -205,7 +205,7 @@ stop = { lambda = [-0.5, 10.5] }
 // Held while λ varies it is there from the start: as where λ has brought it.
 TEST(Prescribed, IsAppliedBeforeThePathWhereItIsConstant) {
   const std::string path =
-      "[path]\nstep = 0.1\nland = { lambda = [0.2, 0.4, 0.6, 0.8] }\n[path.stop]\nlambda = [-0.1, 1.0]\n"
+      "[path]\nstep = 0.1\noutput_at = { lambda = [0.2, 0.4, 0.6, 0.8] }\n[path.stop]\nlambda = [-0.1, 1.0]\n"
       "[[monitor]]\nname = \"mid\"\nat = \"mid\"\ncomponent = \"z\"\n";
   const std::string moved = "[[prescribed]]\nat = \"mid\"\nz = 0.1\nrotation = 0.2\n";
   const std::string load = "[[load]]\nat = \"B\"\nforce = [0.01, 0.0]\n";
@@ -228,12 +228,12 @@ section.s = {{ shape = "rectangle", width = 0.1, height = 0.1 }}
 point = {{ A = [0.0, 0.0], B = [1.0, 0.0], C = [2.0, 0.0] }}
 support = {{ A = ["x", "z", "rotation"], B = ["z"], C = ["z", "rotation"] }}
 prescribed = [{{ at = "B", rotation = 0.1 }}]
-path = {{ step = 0.2, land = {{ lambda = [0.2, 0.4, 0.6, 0.8] }}, stop = {{ lambda = [-1.0, 1.0] }} }}
+path = {{ step = 0.2, output_at = {{ lambda = [0.2, 0.4, 0.6, 0.8] }}, stop = {{ lambda = [-1.0, 1.0] }} }}
 monitor = [{{ name = "left", at = "first:1", component = "rotation" }}, {{ name = "right", at = "second:0", component = "rotation" }},
            {{ name = "M_left", at = "first:1", component = "moment" }}, {{ name = "M_right", at = "second:0", component = "moment" }}]
 [member]
-first = {{ from = "A", to = "B", theory = "classic", elements = 4, material = "m", section = "s"{} }}
-second = {{ from = "B", to = "C", theory = "classic", elements = 4, material = "m", section = "s"{} }}
+first = {{ from = "A", to = "B", theory = "euler-bernoulli", elements = 4, material = "m", section = "s"{} }}
+second = {{ from = "B", to = "C", theory = "euler-bernoulli", elements = 4, material = "m", section = "s"{} }}
 )",
                      first, second);
 }

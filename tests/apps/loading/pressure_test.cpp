@@ -88,7 +88,7 @@ TEST(PressedDeck, GivesTheSameEventsAlongAnyPathSlow) {
 }
 
 TEST(PressedDeck, IsConfirmedWhateverTheTheoryAndTheEnds) {
-  for (const std::string theory : {"classic", "elastica", "exact", "essenburg"})
+  for (const std::string theory : {"euler-bernoulli", "elastica", "reissner", "essenburg"})
     for (const std::string right : {"\"x\", \"z\"", "\"z\""}) {
       SCOPED_TRACE(theory + " " + right);
       expect_confirmed(TracedDeck(pressed_arch(centimetres, "", theory, right)));
@@ -98,7 +98,8 @@ TEST(PressedDeck, IsConfirmedWhateverTheTheoryAndTheEnds) {
 // With a wall that nothing touches the mesh is another one, and the path the same.
 TEST(PressedDeck, IsTheSameOnAMeshThatSlidesSlow) {
   for (const std::string right : {"\"x\", \"z\"", "\"z\""}) {
-    const std::vector<std::string> landing{"path.land.lambda=[0.2]", "path.stop.lambda=[-0.1,0.2]", "path.step=0.01"};
+    const std::vector<std::string> landing{"path.output_at.lambda=[0.2]", "path.stop.lambda=[-0.1,0.2]",
+                                           "path.step=0.01"};
     const TracedDeck fixed(pressed_arch(centimetres, "", "elastica", right), landing);
     const TracedDeck sliding(pressed_arch(centimetres, floor_at(centimetres, -50.0), "elastica", right), landing);
     ASSERT_NE(sliding.model().sliding(), nullptr);
@@ -122,7 +123,7 @@ TEST(PressedDeck, IsBorneByTheSupports) {
 
 // It is pressed through onto a floor and lies down there. On the floor, too, what is read off is confirmed.
 TEST(PressedDeck, LiesDownOnAFloorSlow) {
-  for (const std::string points : {"sliding", "nodes"}) {
+  for (const std::string points : {"moving", "nodes"}) {
     const TracedDeck traced(pressed_arch(centimetres, floor_at(centimetres, -0.12)),
                             {"contact.points=\"" + points + "\""});
     EXPECT_FALSE(events_of(traced, EventKind::contact_closes).empty()) << points;
@@ -135,7 +136,7 @@ TEST(PressedDeck, IsAppliedBeforeThePathWhereItIsConstant) {
   std::string deck = pressed_arch(centimetres, load);
   const std::string pressure = "pressure = 1\n";
   deck.replace(deck.find(pressure), pressure.size(), "pressure = 0.2\nconstant = true\n");
-  const TracedDeck before(deck), by_lambda(pressed_arch(centimetres, ""), {"path.land.lambda=[0.2]"});
+  const TracedDeck before(deck), by_lambda(pressed_arch(centimetres, ""), {"path.output_at.lambda=[0.2]"});
   const auto& points = by_lambda.record().points;
   const auto landed =
       std::find_if(points.begin(), points.end(), [](const RecordPoint& point) { return point.lambda == 0.2; });
@@ -154,7 +155,8 @@ TEST(LoadInTheFrameOfItsMember, IsConfirmedAndTheSameOnAMeshThatSlidesSlow) {
         fmt::format("distributed = [{:.17g}, {:.17g}]\nframe = \"member\"\n", in.per_length(0.3), in.per_length(-1.0));
     return text.replace(at, text.find('\n', at) - at, load);
   };
-  const std::vector<std::string> landing{"path.land.lambda=[0.1]", "path.stop.lambda=[-0.1,0.1]", "path.step=0.01"};
+  const std::vector<std::string> landing{"path.output_at.lambda=[0.1]", "path.stop.lambda=[-0.1,0.1]",
+                                         "path.step=0.01"};
   const TracedDeck fixed(deck(centimetres, "", "elastica"), landing);
   const TracedDeck sliding(deck(centimetres, floor_at(centimetres, -50.0), "elastica"), landing);
   ASSERT_NE(sliding.model().sliding(), nullptr);
@@ -164,9 +166,10 @@ TEST(LoadInTheFrameOfItsMember, IsConfirmedAndTheSameOnAMeshThatSlidesSlow) {
     EXPECT_NEAR(b.monitors[i], a.monitors[i], 1e-8 * (1e-2 + std::abs(a.monitors[i]))) << i;
   EXPECT_NEAR(b.energy, a.energy, 1e-9 * std::abs(a.energy));
   expect_confirmed(sliding);
-  for (const std::string theory : {"classic", "elastica", "exact", "essenburg"})
+  for (const std::string theory : {"euler-bernoulli", "elastica", "reissner", "essenburg"})
     expect_confirmed(TracedDeck(deck(centimetres, "", theory)));
-  expect_same_events(TracedDeck(deck(centimetres, "", "classic")), TracedDeck(deck(metres, "", "classic")), 1e-8);
+  expect_same_events(TracedDeck(deck(centimetres, "", "euler-bernoulli")),
+                     TracedDeck(deck(metres, "", "euler-bernoulli")), 1e-8);
   const TracedDeck down(deck(centimetres, floor_at(centimetres, -0.11), "elastica"));
   EXPECT_FALSE(events_of(down, EventKind::contact_closes).empty());
   expect_confirmed(down);

@@ -38,18 +38,18 @@ std::string ring_of(const std::vector<Quarter>& arcs, int elements, double great
 [[wall]]
 name = "floor"
 side = "below"
-acts_on = "axis"
+contact_surface = "axis"
 profile = {{ type = "flat", z = -1.0 }}
 [[wall]]
 name = "plate"
 side = "above"
-acts_on = "axis"
+contact_surface = "axis"
 profile = {{ type = "flat", z = 1.0 }}
 motion = {{ z = -1.0 }}
 [path]
 step = 0.01
 branches = "primary"
-land = {{ lambda = [0.1] }}
+output_at = {{ lambda = [0.1] }}
 [path.stop]
 lambda = [-0.01, {:.17g}]
 [[monitor]]

@@ -90,7 +90,7 @@ TEST(Springs, GiveTheSameEventsAlongAnyPathSlow) {
 }
 
 TEST(Springs, AreConfirmedSlow) {
-  for (const std::string theory : {"classic", "elastica", "exact"}) {
+  for (const std::string theory : {"euler-bernoulli", "elastica", "reissner"}) {
     SCOPED_TRACE(theory);
     const TracedDeck traced(column(centimetres, springs(centimetres), theory));
     expect_confirmed(traced);
@@ -132,10 +132,10 @@ title = "Lever"
 material.m.E = 1e4
 section.s = { shape = "general", A = 100.0, I = 100.0 }
 point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-member.lever = { from = "A", to = "B", theory = "classic", elements = 2, material = "m", section = "s" }
+member.lever = { from = "A", to = "B", theory = "euler-bernoulli", elements = 2, material = "m", section = "s" }
 support = { A = ["x", "z"] }
 load = [{ at = "lever:0.5", force = [0.0, -1.0] }]
-path = { step = 0.05, land = { B = [-0.1] }, stop = { B = [-0.45, 1.0] } }
+path = { step = 0.05, output_at = { B = [-0.1] }, stop = { B = [-0.45, 1.0] } }
 monitor = [{ name = "B", at = "B", component = "z" }]
 [[spring]]
 at = "B"
@@ -159,7 +159,7 @@ law = { direction = "z", displacement = [-0.5, -0.2, 0.0, 0.2, 0.5], force = [-0
 // A stiff beam that cannot turn goes down as one under a load along it, which is the law's force: it has its maximum
 // at 0.2, and half way there 0.4375 as above.
 TEST(Springs, OfAFoundationBearByALawAsOneDoes) {
-  for (const std::string theory : {"classic", "elastica", "exact"}) {
+  for (const std::string theory : {"euler-bernoulli", "elastica", "reissner"}) {
     SCOPED_TRACE(theory);
     const std::string text = R"(
 title = "Beam on soil"
@@ -171,7 +171,7 @@ member.beam = { from = "A", to = "B", theory = ")" +
                              R"(", elements = 4, material = "m", section = "s" }
 support = { A = ["x", "rotation"] }
 load = [{ on = "beam", distributed = [0.0, -1.0] }]
-path = { step = 0.05, land = { B = [-0.1] }, stop = { B = [-0.45, 1.0] } }
+path = { step = 0.05, output_at = { B = [-0.1] }, stop = { B = [-0.45, 1.0] } }
 monitor = [{ name = "B", at = "B", component = "z" }]
 [[spring]]
 on = "beam"
@@ -204,7 +204,7 @@ point = { A = [0.0, 0.0], B = [2.0, 0.0] }
 member.lever = { from = "A", to = "B", theory = "elastica", elements = 40, material = "m", section = "s" }
 support = { A = ["x", "z"] }
 load = [{ at = "B", force = [0.0, -1.0] }]
-path = { step = 0.05, land = { B = [-0.2, -0.4] }, stop = { B = [-0.4, 1.0] } }
+path = { step = 0.05, output_at = { B = [-0.2, -0.4] }, stop = { B = [-0.4, 1.0] } }
 monitor = [{ name = "B", at = "B", component = "z" }]
 [[spring]]
 on = "lever"

@@ -50,7 +50,7 @@ step = 0.005
 name = "press"
 drives = ["load.1"]
 stop = { lambda = [-1.0, 0.5] }
-land = { lambda = [0.25] }
+output_at = { lambda = [0.25] }
 [[stage]]
 name = "release"
 drives = ["prescribed.0"]
@@ -71,7 +71,7 @@ std::string indented_in_and_out() {
 [[wall]]
 name = "indenter"
 side = "above"
-acts_on = "axis"
+contact_surface = "axis"
 profile = { type = "circle", centre = [1.0, 1.05], radius = 1.0 }
 motion = { z = -1.0, rotation = 0.3, about = [1.0, 1.05] }
 [[load]]
@@ -116,7 +116,7 @@ support = { A = ["x", "z"], B = ["z"] }
 [[wall]]
 name = "plate"
 side = "above"
-acts_on = "axis"
+contact_surface = "axis"
 profile = { type = "flat", z = 0.32 }
 motion = { z = -1.0 }
 [[load]]
@@ -203,7 +203,7 @@ TEST(Stages, FollowEachOther) {
 TEST(Stages, AreNamedInTheFiles) {
   const TracedDeck staged(pushed_column(three_stages));
   const std::string path = path_csv(staged.record(), UnitLabels::shown);
-  EXPECT_NE(path.find(",event,unstable_dead,stage\n"), std::string::npos);
+  EXPECT_NE(path.find(",event,unstable_load_control,stage\n"), std::string::npos);
   EXPECT_NE(path.find(",start,0,shorten\n"), std::string::npos);
   const auto events = events_json(staged.record());
   EXPECT_EQ(events["events"].front()["stage"], "shorten");
@@ -317,7 +317,7 @@ TEST(Stages, SayWhatIsWrongWithThem) {
   EXPECT_NE(stage_problem("name = \"press\"", "name = \"shorten\"").find("the name of another stage"),
             std::string::npos);
   EXPECT_NE(stage_problem("step = 0.005", "branches = \"all\"").find("traces all branches"), std::string::npos);
-  EXPECT_EQ(stage_problem("[[stage]]", "[contact]\npoints = \"sliding\"\n[[stage]]"), "");
+  EXPECT_EQ(stage_problem("[[stage]]", "[contact]\npoints = \"moving\"\n[[stage]]"), "");
 }
 
 }  // namespace arcwall::loading_test

@@ -18,9 +18,17 @@ std::vector<std::string> keys(const Json& json) {
   return result;
 }
 
-const std::vector<std::string> common{"id",       "kind",     "branch",          "step",           "arc",
-                                      "lambda",   "monitors", "unstable_before", "unstable_after", "residual",
-                                      "localised"};
+const std::vector<std::string> common{"id",
+                                      "kind",
+                                      "branch",
+                                      "step",
+                                      "arc",
+                                      "lambda",
+                                      "monitors",
+                                      "unstable_before",
+                                      "unstable_after",
+                                      "residual",
+                                      "lambda_uncertainty"};
 
 TEST(EventsJson, NamesDeckVersionAndBranches) {
   const Json json = events_json(sample_record());
@@ -30,7 +38,7 @@ TEST(EventsJson, NamesDeckVersionAndBranches) {
   EXPECT_EQ(json["version"], program_version());
   EXPECT_EQ(
       json["branches"].dump(),
-      R"([{"id":0,"parent":null,"origin":null,"mirrored":false,"points":3,"lambda":[0.0,0.1],"end":{"reason":"stop","detail":"mid = 0.2"}}])");
+      R"([{"id":0,"parent":null,"origin":null,"mirror_image":false,"points":3,"lambda":[0.0,0.1],"end":{"reason":"stop","detail":"mid = 0.2"}}])");
 }
 
 TEST(EventsJson, AnEventHasTheKeysOfItsKind) {
@@ -54,7 +62,7 @@ TEST(EventsJson, AnEventHasTheKeysOfItsKind) {
 
 TEST(EventsJson, ADisplacementLimitNamesItsMonitorAndABranchPointItsType) {
   Record record = sample_record();
-  record.events[0].kind = EventKind::displacement_limit;
+  record.events[0].kind = EventKind::turning_point;
   record.events[0].monitor = "mid";
   record.events[1].kind = EventKind::branch_point;
   record.events[1].branch_type = BranchType::one_sided;
@@ -103,7 +111,7 @@ TEST(EventNames, EveryNameReadsBack) {
     const auto kind = static_cast<EventKind>(i);
     EXPECT_EQ(event_kind(to_text(kind)), kind) << to_text(kind);
   }
-  for (int i = 0; i <= static_cast<int>(EndReason::adrift); ++i) {
+  for (int i = 0; i <= static_cast<int>(EndReason::rigid_body_motion); ++i) {
     const auto reason = static_cast<EndReason>(i);
     EXPECT_EQ(end_reason(to_text(reason)), reason) << to_text(reason);
     EXPECT_FALSE(explanation(reason).empty());

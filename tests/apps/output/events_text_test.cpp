@@ -42,9 +42,9 @@ TEST(EventsText, ShowsNoDigitThatIsNotSureAndSaysSo) {
   record.events[1].lambda = 0.123456789012;
   record.events[1].unstable_after = 0;
   record.events[2].lambda = 1.0120114646;
-  record.events[2].localised = 0.038;
+  record.events[2].lambda_uncertainty = 0.038;
   record.events[3].lambda = 0.123456789012;
-  record.events[3].localised = 1e-9;
+  record.events[3].lambda_uncertainty = 1e-9;
   EXPECT_EQ(events_text(record),
             "A sample\n"
             "sample.toml, trace-path " +

@@ -50,7 +50,7 @@ force = [0.0, -1.0]
 [[wall]]
 name = "floor"
 side = "below"
-acts_on = "axis"
+contact_surface = "axis"
 profile = { type = "flat", z = -0.5 }
 [contact]
 points = "nodes"
@@ -132,7 +132,7 @@ TEST_F(RecorderTest, EventsAreNumberedAndSayWhatChanges) {
   Recorder recorder(model_, record_);
   recorder.add(arc_at(model_, 0.0, 0.0, {EventKind::start}));
   recorder.add(arc_at(model_, -0.25, 0.5, {EventKind::contact_closes, EventKind::contact_limit_point}));
-  recorder.add(arc_at(model_, -0.5, 0.7, {EventKind::displacement_limit}));
+  recorder.add(arc_at(model_, -0.5, 0.7, {EventKind::turning_point}));
 
   ASSERT_EQ(record_.events.size(), 4u);
   for (Index id = 0; id < 4; ++id) EXPECT_EQ(record_.events[static_cast<std::size_t>(id)].id, id);
@@ -170,9 +170,9 @@ TEST_F(RecorderTest, EndsAndStartsAtABranchPointAreAsUncertainAsThat) {
   Arc arc = arc_at(model_, -0.25, 0.5, {EventKind::branch_point});
   point->state = arc.to.state;
   arc.events[0].branching = point;
-  arc.events[0].localised = 0.01;
+  arc.events[0].lambda_uncertainty = 0.01;
   first.add(arc);
-  first.end({EndReason::branched, ""});
+  first.end({EndReason::switched_branch, ""});
   Recorder second(model_, record_, BranchRecord{.id = 1, .parent = 0, .origin = point});
   second.add(arc_at(model_, -0.25, 0.0, {EventKind::start}));
   second.add(arc_at(model_, -0.5, 0.7, {}));
@@ -180,19 +180,19 @@ TEST_F(RecorderTest, EndsAndStartsAtABranchPointAreAsUncertainAsThat) {
 
   ASSERT_EQ(record_.events.size(), 5u);
   EXPECT_EQ(record_.branches[1].origin, 1);
-  EXPECT_EQ(record_.events[0].localised, 0.0);
+  EXPECT_EQ(record_.events[0].lambda_uncertainty, 0.0);
   EXPECT_EQ(record_.events[2].kind, EventKind::end);
-  EXPECT_EQ(record_.events[2].localised, 0.01);
+  EXPECT_EQ(record_.events[2].lambda_uncertainty, 0.01);
   EXPECT_EQ(record_.events[3].kind, EventKind::start);
-  EXPECT_EQ(record_.events[3].localised, 0.01);
-  EXPECT_EQ(record_.events[4].localised, 0.0);
+  EXPECT_EQ(record_.events[3].lambda_uncertainty, 0.01);
+  EXPECT_EQ(record_.events[4].lambda_uncertainty, 0.0);
 }
 
 TEST_F(RecorderTest, ABranchWithoutPointsHasNoEndEvent) {
   Recorder recorder(model_, record_);
-  recorder.end({EndReason::no_ray, ""});
+  recorder.end({EndReason::no_continuation, ""});
   EXPECT_TRUE(record_.events.empty());
-  EXPECT_EQ(record_.branches[0].end->reason, EndReason::no_ray);
+  EXPECT_EQ(record_.branches[0].end->reason, EndReason::no_continuation);
 }
 
 TEST_F(RecorderTest, ASecondBranchCountsItsOwnSteps) {
@@ -232,16 +232,16 @@ TEST_F(RecorderTest, TheResultSaysWhatWasRunAndHowItEnded) {
 // The beam touches at k = M/2.8 with (1 − cos k)/k = 0.08, M = 0.448961, before the end of the increment from 0.4 to
 // 0.45.
 TEST(RecordedIncrements, AnEventLiesWithinTheIncrementAtWhoseEndItIsReported) {
-  const test::TracedDeck run(
-      test::example("foundation"),
-      {"path.method=\"incremental\"", "path.step=0.05", "path.land={lambda=[0.5]}", "path.stop={lambda=[-1.0, 0.5]}"});
+  const test::TracedDeck run(test::example("foundation"),
+                             {"path.method=\"incremental\"", "path.step=0.05", "path.output_at={lambda=[0.5]}",
+                              "path.stop={lambda=[-1.0, 0.5]}"});
   const auto& events = run.record().events;
   const auto closes = std::find_if(events.begin(), events.end(),
                                    [](const RecordEvent& event) { return event.kind == EventKind::contact_closes; });
   ASSERT_NE(closes, events.end());
   EXPECT_NEAR(closes->lambda, 0.45, 1e-12);
-  EXPECT_NEAR(closes->localised, 0.05, 1e-12);
-  EXPECT_LE(std::abs(closes->lambda - 0.448961), closes->localised);
+  EXPECT_NEAR(closes->lambda_uncertainty, 0.05, 1e-12);
+  EXPECT_LE(std::abs(closes->lambda - 0.448961), closes->lambda_uncertainty);
 }
 
 }  // namespace

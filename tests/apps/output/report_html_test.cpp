@@ -58,11 +58,11 @@ TEST(ReportData, PointsWithUncertainEventsHaveALoadAsText) {
   Record record = sample_record();
   EXPECT_EQ(report_data(record, {})["uncertain"].dump(), "[]");
   record.points[1].lambda = record.events[1].lambda = record.events[2].lambda = 0.123456789012;
-  record.events[2].localised = 1e-9;  // 8 digits are sure
+  record.events[2].lambda_uncertainty = 1e-9;  // 8 digits are sure
   EXPECT_EQ(report_data(record, {})["uncertain"].dump(), "[]");
-  record.events[2].localised = 1e-8;
+  record.events[2].lambda_uncertainty = 1e-8;
   EXPECT_EQ(report_data(record, {})["uncertain"].dump(), R"([[1,"0.1234568"]])");
-  record.events[2].localised = 0.004;
+  record.events[2].lambda_uncertainty = 0.004;
   EXPECT_EQ(report_data(record, {})["uncertain"].dump(), R"([[1,"0.123 ± 0.005"]])");
 }
 
@@ -105,7 +105,7 @@ TEST(ReportHtml, ShowsNoDigitThatIsNotSureAndSaysSo) {
   EXPECT_EQ(own_part(page_of(record, {})).find(" ± "), std::string::npos);
   record.branches.push_back({.id = 1, .parent = 0, .origin = 2, .points = 0});
   record.points[1].lambda = record.events[2].lambda = 1.0120114646;
-  record.events[2].localised = 0.038;
+  record.events[2].lambda_uncertainty = 0.038;
   const std::string page = own_part(page_of(record, {}));
   EXPECT_EQ(page.find("λ = 1.012"), std::string::npos);
   EXPECT_NE(page.find("<td class=\"figure\">1.01 ± 0.05</td>"), std::string::npos);
@@ -137,7 +137,7 @@ TEST(ReportHtml, NothingButAnEndIsAPageToo) {
   record.branches.push_back({.end = BranchEnd{EndReason::singular, ""}});
   const std::string page = own_part(page_of(record, {}));
   EXPECT_NE(page.find("<h1>deck.toml</h1>"), std::string::npos);
-  EXPECT_NE(page.find("the equations are singular (singular)"), std::string::npos);
+  EXPECT_NE(page.find("the tangent stiffness is singular (singular)"), std::string::npos);
 }
 
 TEST(ReportHtml, EveryBranchThatEndedEarlySaysSoAtTheTop) {
@@ -238,7 +238,7 @@ support = { left = ["x", "z"], right = ["z"] }
 [member.column]
 from = "left"
 to = "right"
-theory = "classic"
+theory = "euler-bernoulli"
 material = "steel"
 section = "square"
 elements = 8
@@ -284,7 +284,7 @@ TEST(ReportHtml, SaysWhatLambdaMultipliesAndHowHeightsAreDrawn) {
   EXPECT_EQ(data_of(page)["load_title"], "load factor λ, times 2 kN");
   EXPECT_EQ(count(page, "λ multiplies the load at right force (-2, 0) kN."), 1u);
   EXPECT_NE(page.find("load factor λ, times 2 kN</text>"), std::string::npos);
-  const std::size_t stage = page.find("<svg id=\"stage\""), note = page.find("Heights are drawn 10 times"),
+  const std::size_t stage = page.find("<svg id=\"stage\""), note = page.find("Vertical scale exaggerated 10 times"),
                     happening = page.find("id=\"happening\"");
   EXPECT_LT(stage, note);
   EXPECT_LT(note, happening);

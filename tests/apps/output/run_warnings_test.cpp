@@ -22,7 +22,7 @@ support = { left = ["x", "z"], right = ["z"] }
 [member.column]
 from = "left"
 to = "right"
-theory = "classic"
+theory = "euler-bernoulli"
 material = "steel"
 section = "square"
 elements = 8
@@ -100,9 +100,9 @@ TEST_F(RunWarningsTest, RunPrintsItOnce) {
 // The column that has jumped into three arcs turns by some 2 rad from support to support.
 TEST(WarningOfBent, NamesBranchesWhoseElementsTurnFar) {
   const std::string deck(test::example("channel"));
-  const test::TracedDeck coarse(deck, {"member.column.elements=8", "path.landing=false"});
+  const test::TracedDeck coarse(deck, {"member.column.elements=8", "path.jumps=false"});
   EXPECT_NE(warning_of_bent(coarse.model(), coarse.record()).find("branch 0 elements turn"), std::string::npos);
-  const test::TracedDeck fine(deck, {"path.landing=false"});
+  const test::TracedDeck fine(deck, {"path.jumps=false"});
   EXPECT_EQ(warning_of_bent(fine.model(), fine.record()), "");
 }
 

@@ -145,8 +145,8 @@ section.bar = { shape = "rectangle", width = 0.5, height = 0.25 }
 point = { left = [0.0, 0.0], top = [2.0, 1.0], right = [4.0, 0.0] }
 support = { left = ["x", "z", "rotation"], right = ["z"] }
 [member]
-west = { from = "left", to = "top", theory = "classic", material = "steel", section = "bar", elements = 4 }
-east = { from = "top", to = "right", theory = "classic", material = "steel", section = "bar", elements = 4 }
+west = { from = "left", to = "top", theory = "euler-bernoulli", material = "steel", section = "bar", elements = 4 }
+east = { from = "top", to = "right", theory = "euler-bernoulli", material = "steel", section = "bar", elements = 4 }
 [[load]]
 at = "top"
 force = [1.0, -2.0]

@@ -49,7 +49,7 @@ TEST_F(SweepProgramTest, LimitLoadsOfAllCasesAreCollected) {
   ASSERT_EQ(run("sweep run study --jobs 2").status, 0);
   const Outcome outcome = run("sweep collect study");
   EXPECT_EQ(outcome.status, 0);
-  expect_in("3 cases, 3 as their deck says", outcome.out);
+  expect_in("3 cases, 3 ended as the deck asks", outcome.out);
 
   const auto rows = table(content(study() / "cases.csv"));
   ASSERT_EQ(rows.size(), 4u);
@@ -109,9 +109,9 @@ TEST_F(SweepProgramTest, CompleteCasesAreNotRunAgain) {
   ASSERT_EQ(run("sweep run study --case 1").status, 0);
   EXPECT_EQ(names_in(study() / "cases"), std::set<std::string>{"00001"});
   put(study() / "cases" / "00001" / "mark", "");
-  expect_in("3 of 3 cases have results, 2 of them new", run("sweep run study").out);
+  expect_in("3 of 3 cases completed, 2 of them new", run("sweep run study").out);
   EXPECT_TRUE(fs::exists(study() / "cases" / "00001" / "mark"));
-  expect_in("1 of 1 cases have results, 1 of them new", run("sweep run study --case 1 --force").out);
+  expect_in("1 of 1 cases completed, 1 of them new", run("sweep run study --case 1 --force").out);
   EXPECT_FALSE(fs::exists(study() / "cases" / "00001" / "mark"));
 }
 
@@ -178,7 +178,7 @@ TEST_F(SweepProgramTest, AnInterruptStopsCleanlyAndTheNextCallGoesOn) {
   EXPECT_EQ(outcome.status, 130);
   for (const std::string& name : names_in(study() / "cases")) EXPECT_EQ(name[0], '.') << "no case has results";
   // With other options they begin anew.
-  expect_in("2 of 2 cases have results, 2 of them new", run("sweep run study").out);
+  expect_in("2 of 2 cases completed, 2 of them new", run("sweep run study").out);
   EXPECT_EQ(names_in(study() / "cases"), (std::set<std::string>{"00000", "00001"}));
 }
 
@@ -191,8 +191,9 @@ TEST_F(SweepProgramTest, ACaseThatWasCutOffGoesOnFromItsCheckpoint) {
                             " & child=$!; until [ -e study/cases/.00000/checkpoint ]; do sleep 0.01; done; "
                             "kill -TERM $child; wait $child");
   ASSERT_EQ(cut.status, 130) << "the case is too short to be cut off";
-  expect_in("0 of 1 cases have results, 0 of them as their deck says\n1 more are being run or were begun, 0 were not\n",
-            run("sweep status study").out);
+  expect_in(
+      "0 of 1 cases completed, 0 of them as the deck asks\n1 more are running or were interrupted, 0 have not begun\n",
+      run("sweep status study").out);
   const std::string begun = content(study() / "cases" / ".00000" / "path.csv");
   ASSERT_GT(begun.size(), 100u);
   ASSERT_EQ(shell(command).status, 0);
@@ -203,7 +204,7 @@ TEST_F(SweepProgramTest, ACaseThatWasCutOffGoesOnFromItsCheckpoint) {
                 .status,
             0);
   EXPECT_EQ(whole, content(work() / "alone" / "path.csv"));
-  expect_in("1 of 1 cases have results, 1 of them as their deck says\n", run("sweep status study").out);
+  expect_in("1 of 1 cases completed, 1 of them as the deck asks\n", run("sweep status study").out);
 }
 
 TEST_F(SweepProgramTest, ACaseThatTheTimeOfItsProcessCutGoesOnWithFailed) {
@@ -223,14 +224,14 @@ TEST_F(SweepProgramTest, CasesThatWereHinderedAreRunAgain) {
           .failed,
       2);
   expect_in("file_error      1  1", run("sweep status study").out);
-  expect_in("3 of 3 cases have results, 2 of them new", run("sweep run study").out);
+  expect_in("3 of 3 cases completed, 2 of them new", run("sweep run study").out);
 }
 
 TEST_F(SweepProgramTest, SharesOfTheCasesAreDisjointAndTogetherAll) {
   plan(stiffness_sweep);
-  expect_in("2 of 2 cases have results, 2 of them new", run("sweep run study --part 0/2").out);
+  expect_in("2 of 2 cases completed, 2 of them new", run("sweep run study --part 0/2").out);
   EXPECT_EQ(names_in(study() / "cases"), (std::set<std::string>{"00000", "00002"}));
-  expect_in("1 of 1 cases have results, 1 of them new", run("sweep run study --part 1/2").out);
+  expect_in("1 of 1 cases completed, 1 of them new", run("sweep run study --part 1/2").out);
   for (const char* wrong : {"2/2", "1", "a/b", "-1/2", "0/0", "1/"})
     EXPECT_EQ(run("sweep run study --part " + std::string(wrong)).status, 2) << wrong;
   EXPECT_EQ(run("sweep run study --tolerant --force -- --max-points 3").status, 0);
@@ -247,7 +248,7 @@ TEST_F(SweepProgramTest, ACaseThatAnotherProcessRunsIsLeftToIt) {
       "for pid in $(cat /proc/$child/task/$child/children); do readlink /proc/$pid/fd/* | "
       "grep 'cases/.00000$' | sed 's/.*study/held: study/'; done; "
       "kill -TERM $child; wait $child");
-  expect_in("0 of 1 cases have results, 0 of them new; another process is running 1", outcome.out);
+  expect_in("0 of 1 cases completed, 0 of them new; another process is running 1", outcome.out);
   expect_in("held: study/cases/.00000", outcome.out);
 }
 
@@ -258,7 +259,7 @@ TEST_F(SweepProgramTest, ACaseIsBegunAnewOnceItsOldProcessHasEnded) {
       "mkdir -p study/cases/.00000; flock study/cases/.00000 sleep 0.2 & "
       "until ! flock --nonblock study/cases/.00000 true; do sleep 0.01; done; "
       "\"$PROGRAM\" sweep run study; wait");
-  expect_in("1 of 1 cases have results, 1 of them new", outcome.out);
+  expect_in("1 of 1 cases completed, 1 of them new", outcome.out);
 }
 
 TEST_F(SweepProgramTest, TheReportIsOnePageWithoutNetworkThatTrustsNoText) {
@@ -296,7 +297,7 @@ TEST_F(SweepProgramTest, ScriptsForEnginesQuoteAnyName) {
   EXPECT_EQ(shell("\"$PROGRAM\" sweep emit *study* --engine parallel --jobs 2 >job.sh && sh -n job.sh").status, 0);
   const Outcome packed = shell(
       "rm -rf *study*/cases; \"$PROGRAM\" sweep emit *study* --engine slurm --tasks 2 --time 0:30:00 --memory 2G "
-      "--partition short --log logs/%a.txt -- --set 'path.land={lambda=[1.5]}' >job.sh && "
+      "--partition short --log logs/%a.txt -- --set 'path.output_at={lambda=[1.5]}' >job.sh && "
       "for i in 0 1; do SLURM_ARRAY_TASK_ID=$i sh job.sh || exit 1; done; cat job.sh");
   EXPECT_EQ(packed.status, 0) << packed.err;
   expect_in("#SBATCH --array=0-1\n", packed.out);
@@ -335,7 +336,7 @@ TEST_F(SweepProgramTest, TheExampleIsListedAndRight) {
   ASSERT_EQ(run("examples sweep-channel --out sweep-channel.toml").status, 0);
   ASSERT_EQ(run("examples channel --out channel.toml").status, 0);
   EXPECT_EQ(run("sweep plan sweep-channel.toml").status, 0);
-  expect_in("20 of 20 cases have results, 20 of them new",
+  expect_in("20 of 20 cases completed, 20 of them new",
             run("sweep run sweep-channel --jobs 2 -- --set member.column.elements=10 --max-points 20").out);
 }
 

@@ -42,18 +42,18 @@ TEST_F(SweepRecordsTest, TablesAreThoseOfFolders) {
   EXPECT_TRUE(names_in(study() / "cases").empty());
   EXPECT_EQ(names_in(study() / "results"), std::set<std::string>{"0-of-1.jsonl"});
   EXPECT_EQ(tables(), tables_of_folders());
-  expect_in("6 of 6 cases have results, 6 of them as their deck says", run("sweep status study").out);
+  expect_in("6 of 6 cases completed, 6 of them as the deck asks", run("sweep status study").out);
 }
 
 // A sweep whose results are records gives it to its cases by itself, so that each case was told that it had it twice.
 TEST_F(SweepRecordsTest, ScratchMayBeGivenToCases) {
   ASSERT_EQ(run("sweep run study --records -- --scratch").status, 0);
-  expect_in("6 of 6 cases have results, 6 of them as their deck says", run("sweep status study").out);
+  expect_in("6 of 6 cases completed, 6 of them as the deck asks", run("sweep status study").out);
 }
 
 TEST_F(SweepRecordsTest, EachShareHasAFileOfItsOwn) {
   ASSERT_EQ(run("sweep run study --records --part 0/2").status, 0);
-  expect_in("3 of 6 cases have results", run("sweep status study").out);
+  expect_in("3 of 6 cases completed", run("sweep status study").out);
   ASSERT_EQ(run("sweep run study --records --part 1/2").status, 0);
   EXPECT_EQ(names_in(study() / "results"), (std::set<std::string>{"0-of-2.jsonl", "1-of-2.jsonl"}));
   expect_in("0 of them new", run("sweep run study --records").out);
@@ -66,7 +66,7 @@ TEST_F(SweepRecordsTest, HalfALineIsCutOffAndItsCaseRunAgain) {
   const std::string whole = content(records());
   for (const std::size_t cut : {std::size_t{1}, std::size_t{300}}) {
     put(records(), whole.substr(0, whole.size() - cut));
-    expect_in("5 of 6 cases have results", run("sweep status study").out);
+    expect_in("5 of 6 cases completed", run("sweep status study").out);
     expect_in("1 of them new", run("sweep run study --records").out);
     EXPECT_EQ(content(records()), whole);
   }
@@ -105,7 +105,7 @@ TEST_F(SweepRecordsTest, CasesAreRunAgainThatFailedOrAllOfThem) {
   expect_in("6 of them new", run("sweep run study --records --failed").out);
   expect_in("0 of them new", run("sweep run study --records --failed").out);
   EXPECT_EQ(tables(), tables_of_folders());
-  expect_in("1 of 1 cases have results, 1 of them new", run("sweep run study --records --case 2 --force").out);
+  expect_in("1 of 1 cases completed, 1 of them new", run("sweep run study --records --case 2 --force").out);
   EXPECT_EQ(tables(), tables_of_folders());
 }
 
@@ -116,7 +116,7 @@ TEST_F(SweepRecordsTest, WhatHinderedACaseIsNoResult) {
   const RunRequest request{.folder = study(), .program = work() / "stand-in", .keep = Keep::records};
   EXPECT_EQ(run_cases(request, {}, Rerun::none, [](const RunCounts&) {}).failed, 6);
   expect_in("file_error      6", run("sweep collect study").out);
-  expect_in("6 of 6 cases have results, 6 of them new", run("sweep run study --records").out);
+  expect_in("6 of 6 cases completed, 6 of them new", run("sweep run study --records").out);
   EXPECT_EQ(tables(), tables_of_folders());
 }
 
@@ -158,7 +158,7 @@ TEST_F(SweepRecordsTest, VeryManyCasesAreRecords) {
             "\"deck\":\"truss.toml\"}'; done >>study/cases.jsonl")
           .status,
       0);
-  expect_in("1 of 1 cases have results, 1 of them new", run("sweep run study --case 20000").out);
+  expect_in("1 of 1 cases completed, 1 of them new", run("sweep run study --case 20000").out);
   EXPECT_EQ(names_in(study() / "results"), std::set<std::string>{"0-of-1.jsonl"});
 }
 

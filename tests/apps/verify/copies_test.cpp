@@ -40,16 +40,17 @@ TEST_F(EditedFolder, EveryEditOfEventsIsFound) {
   // The list of changes of contact tells these two as well, and is looked at first.
   expect_in("edited/events.json: ", verdict("events.json", "contact-closes", "limit-point"));
   expect_in("edited/events.json: ", verdict("events.json", "\"upper\"", "\"lower\""));
-  expect_in("kind is \"displacement-limit\" instead of \"start\"",
-            verdict("events.json", "\"start\"", "\"displacement-limit\""));
+  expect_in("kind is \"turning-point\" instead of \"start\"", verdict("events.json", "\"start\"", "\"turning-point\""));
   expect_in("fraction", verdict("events.json", "\"fraction\": 0.5", "\"fraction\": 0.25"));
   expect_in("events.json repeats the run: event 0.residual",
             verdict("events.json", "\"residual\": ", "\"residual\": 7"));
-  expect_in("localised", verdict("events.json", "\"localised\": ", "\"localised\": 1"));
+  expect_in("lambda_uncertainty", verdict("events.json", "\"lambda_uncertainty\": ", "\"lambda_uncertainty\": 1"));
   expect_in("reason is \"stop\" instead of \"max_points\"", verdict("events.json", "\"max_points\"", "\"stop\""));
   expect_in("instead of \"20 points\"", verdict("events.json", "20 points", "21 points"));
-  expect_in("mirrored is true instead of false", verdict("events.json", "\"mirrored\": false", "\"mirrored\": true"));
-  expect_in("remark is more than the run has", verdict("events.json", "\"mirrored\"", "\"remark\": 1, \"mirrored\""));
+  expect_in("mirror_image is true instead of false",
+            verdict("events.json", "\"mirror_image\": false", "\"mirror_image\": true"));
+  expect_in("remark is more than the run has",
+            verdict("events.json", "\"mirror_image\"", "\"remark\": 1, \"mirror_image\""));
   expect_in("residual is missing", verdict("events.json", "\"residual\": [^,]*,", ""));
 }
 
@@ -78,7 +79,7 @@ TEST_F(EditedFolder, EveryEditOfTheResultIsFound) {
 }
 
 TEST_F(EditedFolder, EveryEditOfTheDeckIsFound) {
-  expect_in("deck.toml is the deck: it is not the deck of the checkpoint with its defaults",
+  expect_in("deck.toml equals the deck: it is not the deck of the checkpoint with its defaults",
             verdict("deck.toml", "elements = 8", "elements = 9"));
 }
 

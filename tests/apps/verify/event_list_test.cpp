@@ -29,8 +29,8 @@ std::vector<ListedEvent> listed_events(const Record& record) {
                     .step = event.step,
                     .unstable_before = event.unstable_before,
                     .unstable_after = event.unstable_after,
-                    .localised = event.localised,
-                    .suspected = event.suspected,
+                    .lambda_uncertainty = event.lambda_uncertainty,
+                    .unconfirmed = event.unconfirmed,
                     .monitor = event.monitor.value_or("")});
     for (const RecordContact& contact : event.contacts) list.back().contacts.push_back(contact.label);
   }
@@ -56,7 +56,7 @@ TEST(EventList, EveryEventThatIsRemovedIsMissed) {
     ASSERT_FALSE(incompleteness(traced, events, traced.record()).has_value())
         << to_text(*incompleteness(traced, events, traced.record()));
     for (std::size_t i = 0; i < events.size(); ++i) {
-      if (events[i].kind == "start" || events[i].kind == "end" || events[i].suspected) continue;
+      if (events[i].kind == "start" || events[i].kind == "end" || events[i].unconfirmed) continue;
       const bool one_sided = events[i].kind == "branch-point" && events[i - 1].step == events[i].step;
       if (one_sided) continue;  // the points beside it know of the change of contact alone
       kinds.insert(events[i].kind);
@@ -68,7 +68,7 @@ TEST(EventList, EveryEventThatIsRemovedIsMissed) {
       EXPECT_TRUE(failure->what.starts_with("the list of events is complete: ")) << failure->what;
     }
   }
-  for (const char* kind : {"contact-closes", "contact-opens", "contact-spreads", "limit-point", "displacement-limit"})
+  for (const char* kind : {"contact-closes", "contact-opens", "contact-spreads", "limit-point", "turning-point"})
     EXPECT_TRUE(kinds.contains(kind)) << kind;
 }
 
@@ -123,7 +123,7 @@ material.m = { E = 1.0 }
 section.s = { shape = "general", A = 2.5e7, I = 1.0, height = 0.03 }
 point = { a = [0.0, 0.0], b = [1.0, 0.0] }
 support = { a = ["x", "z", "rotation"] }
-member.c = { from = "a", to = "b", theory = "classic", elements = 6, material = "m", section = "s" }
+member.c = { from = "a", to = "b", theory = "euler-bernoulli", elements = 6, material = "m", section = "s" }
 load = [{ at = "b", force = [-8.085, 0.0] }]
 wall = [{ name = "upper", side = "above", profile = { type = "parabola", apex = [0.65, 0.03], curvature = 0.41 } }]
 path = { step = 0.1, stop = { lambda = [-0.5, 1.0] } }

@@ -136,14 +136,14 @@ TEST(FalsifiedMovedRun, ACountUnderDeadLoadsOffByOneIsCaughtSlow) {
   EXPECT_TRUE(has_check(verdict, "unstable directions under dead loads"));
   std::set<Index> counts;
   for (std::size_t i = 1; i < record.points.size(); i += 5) {
-    if (!record.points[i].unstable_dead || record.points[i].event) continue;
-    counts.insert(*record.points[i].unstable_dead - *record.points[i].count.unstable);
+    if (!record.points[i].unstable_load_control || record.points[i].event) continue;
+    counts.insert(*record.points[i].unstable_load_control - *record.points[i].count.unstable);
     for (const int by : {-1, 1}) {
       Record falsified = record;
-      falsified.points[i].unstable_dead = *record.points[i].unstable_dead + by;
+      falsified.points[i].unstable_load_control = *record.points[i].unstable_load_control + by;
       const Verdict found = verify(traced.model(), falsified, stored_files_of(falsified), "checkpoint");
       ASSERT_TRUE(found.findings.first().has_value()) << i;
-      EXPECT_NE(found.findings.first()->what.find("unstable_dead is"), std::string::npos) << i;
+      EXPECT_NE(found.findings.first()->what.find("unstable_load_control is"), std::string::npos) << i;
     }
   }
   EXPECT_EQ(counts, (std::set<Index>{0, 1}));
@@ -157,7 +157,7 @@ TEST_F(FalsifiedRun, ADigitOfPathCsvIsCaught) {
         first_failure(&StoredFiles::path_csv, text, with_other_digit(text.substr(0, 7)) + text.substr(7));
     EXPECT_EQ(first.file, "path.csv");
     EXPECT_EQ(first.step, last.step);
-    EXPECT_EQ(first.what, "path.csv tells the states: " + what);
+    EXPECT_EQ(first.what, "path.csv matches the states: " + what);
     EXPECT_GT(first.value.value(), first.bound.value());
   };
   caught(last.arc, "arc");
@@ -165,9 +165,9 @@ TEST_F(FalsifiedRun, ADigitOfPathCsvIsCaught) {
   caught(last.energy, "energy");
   const Failure lambda = first_failure(&StoredFiles::path_csv, "," + round_trip(last.lambda) + ",",
                                        "," + round_trip(std::nextafter(last.lambda, 0.0)) + ",");
-  EXPECT_EQ(lambda.what, "path.csv tells the states: lambda");
+  EXPECT_EQ(lambda.what, "path.csv matches the states: lambda");
   EXPECT_EQ(first_failure(&StoredFiles::path_csv, ",end\n", ",\n").what,
-            "path.csv tells the states: event is \"\" instead of \"end\"");
+            "path.csv matches the states: event is \"\" instead of \"end\"");
 }
 
 TEST_F(FalsifiedRun, ADigitOfContactsCsvIsCaught) {
@@ -184,12 +184,12 @@ TEST_F(FalsifiedRun, ADigitOfContactsCsvIsCaught) {
 TEST_F(FalsifiedRun, AnEventThatSaysSomethingElseIsCaught) {
   const Failure lambda = first_failure(&StoredFiles::events_json, "\"lambda\": ", "\"lambda\": 1");
   EXPECT_EQ(lambda.file, "events.json");
-  EXPECT_EQ(lambda.what, "events.json tells the states: lambda");
+  EXPECT_EQ(lambda.what, "events.json matches the states: lambda");
   const Failure count = first_failure(&StoredFiles::events_json, "\"unstable_before\": 0", "\"unstable_before\": 1");
   EXPECT_EQ(count.file, "events.json");
   EXPECT_NE(count.what.find("unstable_before is 1"), std::string::npos) << count.what;
   EXPECT_EQ(first_failure(&StoredFiles::events_json, "\"events\"", "\"others\"").what,
-            "events.json tells the states: it cannot be read");
+            "events.json matches the states: it cannot be read");
 }
 
 TEST_F(FalsifiedRun, AMissingRowIsCaught) {

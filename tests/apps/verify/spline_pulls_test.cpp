@@ -16,11 +16,11 @@ section.s = { shape = "rectangle", width = 0.023, height = 0.0005 }
 point = { left = [0.0, 0.0], right = [1.4, 0.0] }
 support = { left = ["x", "z", "rotation"], right = ["z"] }
 load = [{ at = "right", force = [-5.6e-5, 0.0] }]
-path = { step = 0.05, landing = false, stop = { lambda = [-1.0, 3.27] } }
+path = { step = 0.05, jumps = false, stop = { lambda = [-1.0, 3.27] } }
 [member.column]
 from = "left"
 to = "right"
-theory = "classic"
+theory = "euler-bernoulli"
 material = "m"
 section = "s"
 elements = 40

@@ -74,7 +74,7 @@ TEST(Touches, ThatSlideResistATurnAsTwoCirclesDo) {
     return fmt::format(R"({{ type = "circle", centre = [{}, {}], radius = {} }})", 0.5 * length, z, radius);
   };
   const std::string flat = fmt::format(R"({{ type = "flat", z = {} }})", -1.0 - 0.5 * height);
-  const std::string on_axis = R"(acts_on = "axis", )";
+  const std::string on_axis = R"(contact_surface = "axis", )";
   for (const Case& one :
        {Case{as_profile + circle(centre - 0.5 * height), face}, Case{as_outline + circle(centre - 0.5 * height), face},
         Case{as_profile + flat, infinity}, Case{on_axis + as_profile + circle(centre), radius},

@@ -38,7 +38,7 @@ step = 0.3
 branches = "primary"
 search = true
 search_at = [1.0]
-search_tries = 20
+search_guesses = 20
 stop = { lambda = [-2.0, 5.0], event = "limit-point" }
 )toml");
   const auto found = [](const Record& record) {
@@ -94,7 +94,7 @@ TEST(TracedAgain, AnEventElsewhereAnotherEndAndAnotherContactAreSeen) {
   EXPECT_EQ(differences([&](Record& record) { record.events[1].lambda += 1.1e-6 * range; }), 1u);
   EXPECT_EQ(differences([&](Record& record) {
               record.events[1].lambda += 1.1e-6 * range;
-              record.events[1].localised = 1e-6 * range;
+              record.events[1].lambda_uncertainty = 1e-6 * range;
             }),
             0u)
       << "what is said to be uncertain";
@@ -124,12 +124,12 @@ TEST(TracedAgain, EventsAtOneLambdaHaveNoOrder) {
 TEST(TracedAgain, WhatIsSuspectedOrCutOffIsReserved) {
   const TracedDeck traced(example("channel"));
   Record record = traced.record();
-  record.events.insert(record.events.begin() + 1, RecordEvent{.kind = EventKind::limit_point, .suspected = true});
+  record.events.insert(record.events.begin() + 1, RecordEvent{.kind = EventKind::limit_point, .unconfirmed = true});
   record.events.back().branch_end->reason = EndReason::max_points;
   const Comparison comparison = compare(record, traced.record(), 1e-6);
   EXPECT_TRUE(comparison.differences.empty()) << comparison.differences.front();
   ASSERT_EQ(comparison.reservations.size(), 2u);
-  EXPECT_NE(comparison.reservations[0].find("suspected"), std::string::npos);
+  EXPECT_NE(comparison.reservations[0].find("unconfirmed"), std::string::npos);
   EXPECT_NE(comparison.reservations[1].find("stopped before"), std::string::npos);
 }
 

@@ -114,11 +114,11 @@ material.steel = { E = 2.1e5 }
 section.col = { shape = "rectangle", width = 10.0, height = 5.0 }
 point = { a = [0.0, 0.0], b = [1000.0, 100.0] }
 support = { a = ["x", "z", "rotation"] }
-member.col = { from = "a", to = "b", theory = "classic", material = "steel", section = "col", elements = 20 }
+member.col = { from = "a", to = "b", theory = "euler-bernoulli", material = "steel", section = "col", elements = 20 }
 load = [{ at = "b", force = [-1.0, -0.1] }, { on = "col", distributed = [0.0, -0.01], constant = true }]
 wall = [
-  { name = "under", side = "below", acts_on = "axis", profile = { type = "line", z = 0.0, slope = 0.1 } },
-  { name = "over", side = "above", acts_on = "axis", profile = { type = "line", z = 0.0, slope = 0.1 } },
+  { name = "under", side = "below", contact_surface = "axis", profile = { type = "line", z = 0.0, slope = 0.1 } },
+  { name = "over", side = "above", contact_surface = "axis", profile = { type = "line", z = 0.0, slope = 0.1 } },
 ]
 monitor = [{ name = "mid", at = "col:0.5", component = "z" }]
 path = { step = 50.0, max_step = 0.005, stop = { lambda = [-10.0, 6000.0], mid = [-5.0, 5.0] } }
@@ -134,8 +134,8 @@ path = { step = 50.0, max_step = 0.005, stop = { lambda = [-10.0, 6000.0], mid =
 
 TEST(Verify, EveryTheoryAndWallHoldsSlow) {
   for (const std::string theory :
-       {"theory = \"classic\"", "theory = \"elastica\"\norder = 4", "theory = \"elastica\"\norder = 6",
-        "theory = \"exact\"\norder = 1", "theory = \"exact\"\norder = 2", "theory = \"essenburg\"\norder = 1",
+       {"theory = \"euler-bernoulli\"", "theory = \"elastica\"\norder = 4", "theory = \"elastica\"\norder = 6",
+        "theory = \"reissner\"\norder = 1", "theory = \"reissner\"\norder = 2", "theory = \"essenburg\"\norder = 1",
         "theory = \"essenburg\"\norder = 2\nalong = \"director\""}) {
     SCOPED_TRACE(theory);
     const TracedDeck traced(beam_on_wall(theory, flat));
@@ -148,10 +148,10 @@ TEST(Verify, EveryTheoryAndWallHoldsSlow) {
         R"({ type = "circle", centre = [0.0, -30.5], radius = 30.0 })",
         R"({ type = "spline", x = [-6.0, -3.0, 0.0, 2.5, 6.0], z = [-0.9, -0.6, -0.5, -0.55, -0.9] })"}) {
     SCOPED_TRACE(profile);
-    const TracedDeck traced(beam_on_wall("theory = \"exact\"\norder = 2", profile));
+    const TracedDeck traced(beam_on_wall("theory = \"reissner\"\norder = 2", profile));
     ASSERT_GT(traced.record().points.back().contacts, 0);
     expect_confirmed(traced);
-    expect_confirmed(TracedDeck(beam_on_wall("theory = \"classic\"", profile)));
+    expect_confirmed(TracedDeck(beam_on_wall("theory = \"euler-bernoulli\"", profile)));
   }
 }
 
@@ -164,7 +164,7 @@ title = "A strip above a wall"
 material.steel = { E = 21000.0 }
 section.s = { shape = "rectangle", width = 0.04, height = 0.02 }
 point = { clamp = [0.0, 0.0], tip = [1.3, 0.0] }
-member.strip = { from = "clamp", to = "tip", theory = "classic", material = "steel", section = "s", elements = 13 }
+member.strip = { from = "clamp", to = "tip", theory = "euler-bernoulli", material = "steel", section = "s", elements = 13 }
 support = { clamp = ["x", "z", "rotation"] }
 load = [{ at = "tip", force = [0.0, -3.3e-4] }]
 monitor = [{ name = "tip", at = "tip", component = "z", sign = -1 }]
@@ -179,9 +179,9 @@ title = "A portal on a hill"
 material.m = { E = 2.1e4 }
 section.s = { shape = "rectangle", width = 0.28, height = 0.14 }
 point = { a = [0.0, 0.0], b = [0.0, 15.0], c = [16.0, 15.0], e = [16.0, 0.0] }
-member.west = { from = "a", to = "b", theory = "classic", material = "m", section = "s", elements = 12 }
-member.beam = { from = "b", to = "c", theory = "classic", material = "m", section = "s", elements = 24 }
-member.east = { from = "c", to = "e", theory = "classic", material = "m", section = "s", elements = 12 }
+member.west = { from = "a", to = "b", theory = "euler-bernoulli", material = "m", section = "s", elements = 12 }
+member.beam = { from = "b", to = "c", theory = "euler-bernoulli", material = "m", section = "s", elements = 24 }
+member.east = { from = "c", to = "e", theory = "euler-bernoulli", material = "m", section = "s", elements = 12 }
 support = { a = ["x", "z"], e = ["x", "z"] }
 load = [{ at = "beam:0.4583333333333333", force = [0.0, -0.14] }, { at = "b", force = [0.0045, 0.0] }]
 monitor = [{ name = "sway", at = "b", component = "x" }]
@@ -213,7 +213,7 @@ support = { clamp = ["x", "z", "rotation"] }
 load = [{ at = "tip", moment = -0.035 }]
 wall = [{ name = "drum", side = "below", profile = { type = "circle", centre = [9.42, -13.276], radius = 11.1713 } }]
 path = { step = 0.1, stop = { lambda = [-1.0, 5.3] } }
-member.strip = { from = "clamp", to = "tip", theory = "classic", material = "steel", section = "s", elements = 30 }
+member.strip = { from = "clamp", to = "tip", theory = "euler-bernoulli", material = "steel", section = "s", elements = 30 }
 )toml"));
 }
 
@@ -224,11 +224,11 @@ title = "a clamped column between walls"
 material.steel = { E = 2.1e4 }
 section.s = { shape = "rectangle", width = 5.177260424129696, height = 2.3035284272892818 }
 point = { left = [0.0, 0.0], right = [65.99690486418933, 0.0] }
-member.column = { from = "left", to = "right", theory = "classic", material = "steel", section = "s", elements = 16 }
+member.column = { from = "left", to = "right", theory = "euler-bernoulli", material = "steel", section = "s", elements = 16 }
 support = { left = ["x", "z", "rotation"], right = ["z", "rotation"] }
 load = [{ at = "right", force = [-1003.7634744502974, 0.0] }]
 wall = [{ name = "upper", side = "above", profile = { type = "flat", z = 2.5511640248401424 } }, { name = "lower", side = "below", profile = { type = "flat", z = -2.5511640248401424 } }]
-path = { step = 0.05, landing = false, stop = { lambda = [-1.0, 5.0] } }
+path = { step = 0.05, jumps = false, stop = { lambda = [-1.0, 5.0] } }
 )"));
 }
 
@@ -244,7 +244,7 @@ member.arch = { from = "left", to = "right", theory = "elastica", material = "st
 support = { left = ["x", "z"], right = ["x", "z"] }
 load = [{ on = "arch", distributed = [0.0, -0.013195084863219153] }]
 wall = [{ name = "lower", side = "below", profile = { type = "flat", z = -0.463283826579837 } }]
-path = { step = 0.05, landing = false, branches = "primary", stop = { lambda = [-3.0, 3.0] } }
+path = { step = 0.05, jumps = false, branches = "primary", stop = { lambda = [-3.0, 3.0] } }
 )"));
 }
 
@@ -260,8 +260,8 @@ member.column = { from = "a", to = "b", theory = "elastica", material = "m", sec
 support = { a = ["x", "z"], b = ["z"] }
 load = [{ at = "b", force = [-1.0, 0.0] }]
 wall = [
-  { name = "over", acts_on = "axis", outline = { type = "polyline", x = [0.6, 0.5, 0.4], z = [0.2, 0.0, 0.2] } },
-  { name = "under", acts_on = "axis", outline = { type = "polyline", x = [0.4, 0.5, 0.6], z = [-0.2, 0.0, -0.2] } },
+  { name = "over", contact_surface = "axis", outline = { type = "polyline", x = [0.6, 0.5, 0.4], z = [0.2, 0.0, 0.2] } },
+  { name = "under", contact_surface = "axis", outline = { type = "polyline", x = [0.4, 0.5, 0.6], z = [-0.2, 0.0, -0.2] } },
 ]
 monitor = [{ name = "off", at = "column:0.75", component = "z" }]
 path = { step = 5.0, max_step = 0.05, stop = { off = [-0.6, 0.6] } }
@@ -283,7 +283,7 @@ member.b = {{ from = "top", to = "right", theory = "truss", strain = "green", ma
 support = {{ left = ["x", "z"], right = ["x", "z"] }}
 load = [{{ at = "top", force = [0.0, -1.0] }}]
 monitor = [{{ name = "w", at = "top", component = "z" }}]
-path = {{ method = "spherical", step = 0.005, branches = "follow", stop = {{ w = [-{0}, 0.5] }} }}
+path = {{ method = "spherical", step = 0.005, branches = "most-stable", stop = {{ w = [-{0}, 0.5] }} }}
 )",
                                         height));
     EXPECT_GE(events_of(traced, EventKind::branch_point).size(), 1u);
@@ -308,7 +308,7 @@ TEST(Verify, APegBetweenTwoNodesIsSeen) {
 // What increments leave is no equilibrium, and is said not to be checked.
 TEST(Verify, IncrementsAreCheckedAgainstTheirFilesAlone) {
   const TracedDeck traced(example("channel"),
-                          {"path.method=\"incremental\"", "path.step=0.1", "path.land={lambda=[1.0, 2.0]}"});
+                          {"path.method=\"incremental\"", "path.step=0.1", "path.output_at={lambda=[1.0, 2.0]}"});
   ASSERT_TRUE(traced.model().in_increments());
   expect_confirmed(traced);
   const Verdict verdict = verify(traced.model(), traced.record(), stored_files_of(traced.record()), "checkpoint");

@@ -23,7 +23,7 @@ TEST(BadDecks, RootMaterialsAndPoints) {
       {"nu = 0.29", "nu = -1", "material.steel.nu", "out of range"},
       {"nu = 0.29", "rho = 1", "material.steel.rho", "not a key of this table; known are E, nu"},
       {"nu = 0.29", "", "member.arch.material", "has no nu, which theory essenburg needs", elsewhere},
-      {"nu = 0.29", "", "member.wave.material", "has no nu, which theory exact needs", elsewhere},
+      {"nu = 0.29", "", "member.wave.material", "has no nu, which theory reissner needs", elsewhere},
       {"[material.plain]", "[material.\"pl ain\"]", "\"pl ain\"", "is no name"},
       {"[material.plain]\nE = 7", "[material]\nplain = 7", "material.plain", "wrong type", 1},
       {"A = [0.0, 0.0]", "A = [0.0]", "point.A", "two numbers"},
@@ -63,11 +63,13 @@ TEST(BadDecks, MembersAndTheirTheory) {
       {"from = \"A\"", "from = \"Q\"", "member.column.from", "\"Q\" is not a point of this deck"},
       {"from = \"A\"", "from = \"B\"", "member.column.to", "also the point it comes from", 1},
       {"C = [4, 1]", "C = [2.0, 0.0]", "member.arch.to", "are both at [2, 0]", elsewhere},
-      {"theory = \"classic\"", "theory = \"clasic\"", "member.column.theory", "did you mean classic?"},
-      {"theory = \"classic\"", "theory = \"classic\"\norder = 2", "member.column.order", "theory classic has no order",
-       1},
-      {"theory = \"classic\"", "theory = \"classic\"\nalong = \"fixed\"", "member.column.along", "theory essenburg", 1},
-      {"theory = \"classic\"", "theory = \"classic\"\nstrain = \"log\"", "member.column.strain", "theory truss", 1},
+      {"theory = \"euler-bernoulli\"", "theory = \"clasic\"", "member.column.theory", "did you mean euler-bernoulli?"},
+      {"theory = \"euler-bernoulli\"", "theory = \"euler-bernoulli\"\norder = 2", "member.column.order",
+       "theory euler-bernoulli has no order", 1},
+      {"theory = \"euler-bernoulli\"", "theory = \"euler-bernoulli\"\nalong = \"fixed\"", "member.column.along",
+       "theory essenburg", 1},
+      {"theory = \"euler-bernoulli\"", "theory = \"euler-bernoulli\"\nstrain = \"log\"", "member.column.strain",
+       "theory truss", 1},
       {"order = 1", "order = 3", "member.arch.order", "give 1 or 2"},
       {"order = 1", "order = 1.0", "member.arch.order", "1 is of the wrong type"},
       {"order = 4", "order = 5", "member.spline.order", "give 4 or 6"},
@@ -152,7 +154,8 @@ TEST(BadDecks, SupportsAndLoads) {
 TEST(BadDecks, Outlines) {
   const char* const ramp = "x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0]";
   const char* const closed_ramp =
-      "x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0], closed = true, keep = \"outside\" }\ncorner_radius = 0.125";
+      "x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0], closed = true, structure = \"outside\" }\ncorner_radius = "
+      "0.125";
   expect_refused({
       {"name = \"stop\"", "name = \"stop\"\nside = \"above\"", "wall.5.side", "belongs to a profile", 1},
       {"name = \"stop\"", "name = \"stop\"\nprofile = { type = \"flat\", z = 9.0 }", "wall.5.profile",
@@ -164,14 +167,14 @@ TEST(BadDecks, Outlines) {
        "wall.5.outline", "wrong type"},
       {"radius = 30.0", "radius = 0.0", "wall.6.outline.radius", "greater than 0"},
       {"radius = 30.0", "radius = -1.0", "wall.6.outline.radius", "greater than 0"},
-      {"keep = \"inside\"", "keep = \"in\"", "wall.6.outline.keep", "known are outside, inside"},
-      {"keep = \"inside\" }", "keep = \"inside\" }\ncorner_radius = 0.1", "wall.6.corner_radius",
+      {"structure = \"inside\"", "structure = \"in\"", "wall.6.outline.structure", "known are outside, inside"},
+      {"structure = \"inside\" }", "structure = \"inside\" }\ncorner_radius = 0.1", "wall.6.corner_radius",
        "belongs to an outline of type polyline", 1},
       {"axes = [2.5, 1.25]", "axes = [2.5, 0.0]", "wall.8.outline.axes", "greater than 0; give both"},
       {"axes = [2.5, 1.25]", "axes = 2.5", "wall.8.outline.axes", "wrong type"},
       {"z = [-40.0, -38.5, -41.0]", "z = [-40.0, -38.5]", "wall.9.outline.z", "3 x and 2 z"},
       {"x = [-40.5, 0.5, 40.0], z = [-40.0, -38.5, -41.0]", "x = [1.0], z = [2.0]", "wall.9.outline.x", "at least 2"},
-      {"z = [-40.0, -38.5, -41.0]", "z = [-40.0, -38.5, -41.0], keep = \"inside\"", "wall.9.outline.keep",
+      {"z = [-40.0, -38.5, -41.0]", "z = [-40.0, -38.5, -41.0], structure = \"inside\"", "wall.9.outline.structure",
        "belongs to a closed outline"},
       {"x = [-40.5, 0.5, 40.0], z = [-40.0, -38.5, -41.0]", "x = [1.0, 2.0], z = [2.0, 2.0], closed = true",
        "wall.9.outline.x", "2 points close nothing"},
@@ -180,10 +183,10 @@ TEST(BadDecks, Outlines) {
        "where the outline closes; leave the last point out"},
       {ramp, "x = [0.0, 1.0, 1.0, 0.0], z = [-30.0, -29.0, -30.0, -29.0]", "wall.7.outline.x", "crosses itself"},
       {closed_ramp,
-       "x = [10.5, 20.0, 30.0, 20.0], z = [-30.0, -20.0, -31.0, -24.0], closed = true, keep = \"outside\" }\n"
+       "x = [10.5, 20.0, 30.0, 20.0], z = [-30.0, -20.0, -31.0, -24.0], closed = true, structure = \"outside\" }\n"
        "corner_radius = 0.0",
        "wall.7.outline", "the corner at (20, -24) is hollow and sharp, and no other one is"},
-      {"x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0], closed = true, keep = \"outside\" }",
+      {"x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0], closed = true, structure = \"outside\" }",
        "x = [10.5, 20.0, 11.0], z = [-30.0, -30.0, -30.0] }", "wall.7.outline", "turns back on itself"},
       {"corner_radius = 0.125", "corner_radius = 9.0", "wall.7.corner_radius", "too short; give a smaller"},
       {"corner_radius = 0.125", "corner_radius = -1.0", "wall.7.corner_radius", "at least 0"},
@@ -197,11 +200,13 @@ TEST(BadDecks, WallsAndContact) {
       {"name = \"slope\"", "name = \"upper\"", "wall.1.name", "name of another wall"},
       {"side = \"above\"", "", "wall.0.side", "is missing", elsewhere},
       {"side = \"above\"", "side = \"over\"", "wall.0.side", "known are above, below"},
-      {"acts_on = \"axis\"", "acts_on = \"axes\"", "wall.0.acts_on", "did you mean axis?"},
-      {"acts_on = \"axis\"", "", "wall.0.acts_on", "section bar of member strut has no height", elsewhere},
+      {"contact_surface = \"axis\"", "contact_surface = \"axes\"", "wall.0.contact_surface", "did you mean axis?"},
+      {"contact_surface = \"axis\"", "", "wall.0.contact_surface", "section bar of member strut has no height",
+       elsewhere},
       {"members = [\"column\", \"arch\"]", "members = [\"column\", \"arc\"]", "wall.1.members", "did you mean arch?"},
       {"members = [\"column\", \"arch\"]", "members = []", "wall.1.members", "the array is empty"},
-      {"members = [\"column\", \"arch\"]", "members = [\"strut\"]", "wall.1.acts_on", "has no height", elsewhere},
+      {"members = [\"column\", \"arch\"]", "members = [\"strut\"]", "wall.1.contact_surface", "has no height",
+       elsewhere},
       {"profile = { type = \"flat\", z = 5.0 }", "", "wall.0.profile", "is missing", elsewhere},
       {"profile = { type = \"flat\", z = 5.0 }", "profile = 5.0", "wall.0.profile", "wrong type"},
       {"type = \"flat\", z = 5.0", "type = \"flat\"", "wall.0.profile.z", "is missing"},
@@ -228,14 +233,15 @@ TEST(BadDecks, Path) {
        elsewhere},
       {"component = \"x\" }", "component = \"reaction-x\" }", "path.control.component", "known are x, z, rotation"},
       {"control = { at = \"column:0.5\"", "control = { at = \"column:0.51\"", "path.control.at", "column:0.5125"},
-      {"land = { mid = [-0.05],", "land = { middle = [-0.05],", "path.land.middle", "neither lambda nor a monitor"},
-      {"land = { mid = [-0.05],", "land = { mid = -0.05,", "path.land.mid", "wrong type"},
-      {"lambda = [0.4, 0.4475]", "lambda = []", "path.land.lambda", "the array is empty"},
+      {"output_at = { mid = [-0.05],", "output_at = { middle = [-0.05],", "path.output_at.middle",
+       "neither lambda nor a monitor"},
+      {"output_at = { mid = [-0.05],", "output_at = { mid = -0.05,", "path.output_at.mid", "wrong type"},
+      {"lambda = [0.4, 0.4475]", "lambda = []", "path.output_at.lambda", "the array is empty"},
       {"step = -0.5", "step = 0.0", "path.step", "other than 0"},
       {"min_step = 1e-6", "min_step = 0", "path.min_step", "greater than 0"},
       {"min_step = 1e-6", "min_step = 3", "path.max_step", "max_step = 2 is less than min_step = 3", 1},
       {"max_points = 100", "max_points = 0", "path.max_points", "at least 1"},
-      {"branches = \"all\"", "branches = \"every\"", "path.branches", "known are primary, follow, all"},
+      {"branches = \"all\"", "branches = \"every\"", "path.branches", "known are primary, most-stable, all"},
       {"depth = 3", "depth = -1", "path.depth", "at least 0"},
       {"watch = [\"mid\", \"end\"]", "watch = [\"mid\", \"ned\"]", "path.watch", "\"ned\" is not a monitor"},
       {"watch = [\"mid\", \"end\"]", "watch = [\"mid\", \"mid\"]", "path.watch.1", "named twice"},
@@ -245,8 +251,8 @@ TEST(BadDecks, Path) {
       {"search_at = [0.3, 4.0]", "search_at = [0.3, 40.0]", "path.search_at", "40 is outside stop.lambda = [-1, 10]"},
       {"search_at = [0.3, 4.0]", "search_at = [nan]", "path.search_at.0", "nan is not a finite number"},
       {"search_at = [0.3, 4.0]", "search_at = 0.3", "path.search_at", "wrong type"},
-      {"search_tries = 7", "search_tries = 0", "path.search_tries", "at least 1"},
-      {"search_tries = 7", "search_tries = 2.5", "path.search_tries", "wrong type"},
+      {"search_guesses = 7", "search_guesses = 0", "path.search_guesses", "at least 1"},
+      {"search_guesses = 7", "search_guesses = 2.5", "path.search_guesses", "wrong type"},
       {"search_seed = 3", "search_seed = -1", "path.search_seed", "at least 0"},
       {"mid = [-0.16, 0.16]", "mid = [0.16, -0.16]", "path.stop.mid", "low less than high"},
       {"mid = [-0.16, 0.16]", "mid = [0.16, 0.16]", "path.stop.mid", "[0.16, 0.16] are no bounds"},
@@ -305,10 +311,11 @@ TEST(BadDecks, IncrementalNeedsTheLoadsToLandOn) {
   EXPECT_NE(all_of(diagnostics_of(searched)).find("path.search: method \"incremental\" leaves no equilibria"),
             std::string::npos);
   EXPECT_TRUE(diagnostics_of(text).empty());
-  EXPECT_NE(all_of(diagnostics_of(replaced(text, ", lambda = [0.4, 0.4475]", ""))).find("path.land: lambda is missing"),
-            std::string::npos);
-  EXPECT_NE(all_of(diagnostics_of(replaced(text, "land = { mid = [-0.05], lambda = [0.4, 0.4475] }", "")))
-                .find("path.land: lambda is missing"),
+  EXPECT_NE(
+      all_of(diagnostics_of(replaced(text, ", lambda = [0.4, 0.4475]", ""))).find("path.output_at: lambda is missing"),
+      std::string::npos);
+  EXPECT_NE(all_of(diagnostics_of(replaced(text, "output_at = { mid = [-0.05], lambda = [0.4, 0.4475] }", "")))
+                .find("path.output_at: lambda is missing"),
             std::string::npos);
 }
 
@@ -364,9 +371,9 @@ TEST(BadDecks, WordsOfOtherBooksAreUnderstood) {
     ASSERT_EQ(found.size(), 1u) << theirs;
     EXPECT_NE(found[0].cure.find(ours), std::string::npos) << found[0].cure;
   }
-  for (const auto& [theirs, ours] : {std::pair("euler", "classic"), std::pair("timoshenko", "exact")}) {
-    const auto found =
-        diagnostics_of(replaced(column_deck, "theory = \"classic\"", "theory = \"" + std::string(theirs) + "\""));
+  for (const auto& [theirs, ours] : {std::pair("euler", "euler-bernoulli"), std::pair("timoshenko", "reissner")}) {
+    const auto found = diagnostics_of(
+        replaced(column_deck, "theory = \"euler-bernoulli\"", "theory = \"" + std::string(theirs) + "\""));
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].cure, "did you mean " + std::string(ours) + "?");
   }
@@ -375,7 +382,7 @@ TEST(BadDecks, WordsOfOtherBooksAreUnderstood) {
 // Messages stay readable, on one line each, whatever the deck has in it.
 TEST(BadDecks, MessagesAreShortAndPrintable) {
   const std::string text =
-      replaced(column_deck, "theory = \"classic\"", "theory = \"\\u0007\\n" + std::string(5000, 'x') + "\"");
+      replaced(column_deck, "theory = \"euler-bernoulli\"", "theory = \"\\u0007\\n" + std::string(5000, 'x') + "\"");
 
   const auto found = diagnostics_of(text);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/deck/key_list.hpp"
+#include "model/deck/synonyms.hpp"
 
 namespace arcwall::deck::test {
 
@@ -85,8 +86,17 @@ std::string options_of(const std::string& table) {
   return text;
 }
 
+// Words and keys that are read as others.
+std::string other_words() {
+  std::string text = row({"read as", "other word"}) + row({"---", "---"});
+  for (const Synonym& one : synonyms())
+    if (one.use == Synonym::Use::read) text += row({code(std::string(one.word)), code(std::string(one.other))});
+  return text;
+}
+
 // What stands between two markers.
 std::string block(const std::string& marker) {
+  if (marker == "other words") return other_words();
   const std::string table = marker.substr(marker.find(" of ") + 4);
   if (marker.starts_with("options")) return options_of(table);
   return keys_of(table == "deck" ? "" : table);

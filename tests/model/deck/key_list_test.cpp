@@ -48,7 +48,7 @@ TEST(KeyList, HasWhatTheDeclarationsSay) {
   ASSERT_NE(side, nullptr);
   EXPECT_EQ(side->words, (std::vector<std::string>{"above", "below"}));
   for (const char* path : {"title", "member.*.sine.waves", "member.*.imperfection.#.amplitude", "wall.#.profile.type",
-                           "path.land.*", "path.stop.event", "support.*"})
+                           "path.output_at.*", "path.stop.event", "support.*"})
     EXPECT_NE(declared(keys, path), nullptr) << path;
 }
 

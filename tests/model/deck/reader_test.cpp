@@ -54,7 +54,7 @@ TEST(DeckReader, KeepsTheOrderOfTheDeck) {
   std::vector<std::string> names;
   for (const Point& point : deck.points) names.push_back(point.name);
   for (const Member& member : deck.members) names.push_back(member.name);
-  for (const Landing& landing : deck.path.land) names.push_back(landing.name);
+  for (const OutputValues& output : deck.path.output_at) names.push_back(output.name);
   for (const StopBounds& bounds : deck.path.stop.bounds) names.push_back(bounds.name);
   const std::vector<std::string> expected{"B",      "A",     "C",   "D",      "column", "arch",  "wave",
                                           "spline", "strut", "mid", "lambda", "mid",    "lambda"};
@@ -65,7 +65,7 @@ TEST(DeckReader, ReadsMembersOfEveryTheory) {
   const Deck deck = full();
 
   const Member& column = deck.members.at(0);
-  EXPECT_EQ(column.theory, Theory::classic);
+  EXPECT_EQ(column.theory, Theory::euler_bernoulli);
   EXPECT_EQ(column.elements, 80);
   ASSERT_EQ(column.imperfections.size(), 2u);
   EXPECT_EQ(column.imperfections[1].amplitude, -1e-4);
@@ -105,7 +105,7 @@ TEST(DeckReader, ReadsWallsAndContact) {
 
   ASSERT_EQ(deck.walls.size(), 10u);
   EXPECT_EQ(deck.walls[0].side, Side::above);
-  EXPECT_EQ(deck.walls[0].acts_on, ActsOn::axis);
+  EXPECT_EQ(deck.walls[0].contact_surface, ContactSurface::axis);
   EXPECT_TRUE(deck.walls[0].members.empty());
   EXPECT_EQ(std::get<FlatProfile>(deck.walls[0].profile).z, 5.0);
   EXPECT_EQ(deck.walls[1].members, (std::vector<std::string>{"column", "arch"}));
@@ -128,7 +128,7 @@ TEST(DeckReader, ReadsPathAndMonitors) {
   const Deck deck = full();
 
   EXPECT_EQ(deck.path.method, PathMethod::displacement);
-  EXPECT_EQ(deck.path.land.at(1).values, (std::vector<double>{0.4, 0.4475}));
+  EXPECT_EQ(deck.path.output_at.at(1).values, (std::vector<double>{0.4, 0.4475}));
   ASSERT_TRUE(deck.path.control);
   EXPECT_EQ(deck.path.control->at, (Place{.name = "column", .fraction = 0.5}));
   EXPECT_EQ(deck.path.control->component, Component::x);
@@ -136,7 +136,7 @@ TEST(DeckReader, ReadsPathAndMonitors) {
   EXPECT_EQ(deck.path.branches, BranchPolicy::all);
   EXPECT_EQ(deck.path.watch, (std::vector<std::string>{"mid", "end"}));
   EXPECT_EQ(deck.path.events, EventSearch::detect);
-  EXPECT_EQ(deck.path.continuum, ContinuumChoice::stop);
+  EXPECT_EQ(deck.path.equilibrium_family, ContinuumChoice::stop);
   EXPECT_EQ(deck.path.stop.bounds.at(0).low, -0.16);
   EXPECT_EQ(deck.path.stop.contacts, 40);
   EXPECT_EQ(deck.monitors.at(0).component, Component::face_below_z);

@@ -23,7 +23,7 @@ B = [2.0, 0.0]
 [member.column]
 from = "A"
 to = "B"
-theory = "classic"
+theory = "euler-bernoulli"
 material = "steel"
 section = "square"
 elements = 80
@@ -84,7 +84,7 @@ D = [6.0, 1.0]
 [member.column]
 from = "A"
 to = "B"
-theory = "classic"
+theory = "euler-bernoulli"
 material = "plain"
 section = "square"
 elements = 80
@@ -103,7 +103,7 @@ via = [3.0, 0.9]
 [member.wave]
 from = "C"
 to = "D"
-theory = "exact"
+theory = "reissner"
 material = "steel"
 section = "pipe"
 elements = 12
@@ -159,7 +159,7 @@ foundation = { z = 3.0 }
 [[wall]]
 name = "upper"
 side = "above"
-acts_on = "axis"
+contact_surface = "axis"
 profile = { type = "flat", z = 5.0 }
 [[wall]]
 name = "slope"
@@ -189,11 +189,11 @@ outline = { type = "half-plane", point = [20.0, 0.0], normal = [-1.0, 0.75] }
 [[wall]]
 name = "bore"
 members = ["column"]
-outline = { type = "circle", centre = [1.0, 0.75], radius = 30.0, keep = "inside" }
+outline = { type = "circle", centre = [1.0, 0.75], radius = 30.0, structure = "inside" }
 [[wall]]
 name = "ramp"
 members = ["column"]
-outline = { type = "polyline", x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0], closed = true, keep = "outside" }
+outline = { type = "polyline", x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0], closed = true, structure = "outside" }
 corner_radius = 0.125
 [[wall]]
 name = "cam"
@@ -212,7 +212,7 @@ gap_tolerance = 1e-9
 
 [path]
 method = "displacement"
-land = { mid = [-0.05], lambda = [0.4, 0.4475] }
+output_at = { mid = [-0.05], lambda = [0.4, 0.4475] }
 control = { at = "column:0.5", component = "x" }
 step = -0.5
 min_step = 1e-6
@@ -222,10 +222,10 @@ branches = "all"
 depth = 3
 watch = ["mid", "end"]
 events = "detect"
-continuum = "stop"
+equilibrium_family = "stop"
 search = true
 search_at = [0.3, 4.0]
-search_tries = 7
+search_guesses = 7
 search_seed = 3
 [path.stop]
 mid = [-0.16, 0.16]
@@ -273,7 +273,7 @@ component = "gap"
 [[monitor]]
 name = "bent"
 member = "wave"
-component = "greatest-moment"
+component = "max-moment"
 [[monitor]]
 name = "prop"
 spring = "prop"

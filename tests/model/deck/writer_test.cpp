@@ -42,7 +42,7 @@ TEST(DeckWriter, WritesEveryDefault) {
   const std::string text = to_toml(read(column_deck));
 
   for (const char* line : {"method = \"spherical\"", "method = \"multiplier\"", "gap_tolerance = 1e-10", "step = 0.02",
-                           "min_step = 1e-08", "max_step = 0.2", "max_points = 5000", "branches = \"follow\"",
+                           "min_step = 1e-08", "max_step = 0.2", "max_points = 5000", "branches = \"most-stable\"",
                            "depth = 2", "watch = []", "events = \"locate\"", "constant = false", "moment = 0.0"}) {
     EXPECT_NE(text.find(std::string("\n") + line + "\n"), std::string::npos) << line;
   }
@@ -53,7 +53,7 @@ TEST(DeckWriter, SaysWhereContactIsLookedForAndWhy) {
   const std::string wall = "[[wall]]\nname = \"w\"\nside = \"above\"\nprofile = { type = \"flat\", z = 1.0 }\n";
   const std::string text = std::string(column_deck) + wall;
   const auto written = [](const std::string& deck) { return to_toml(read(deck)); };
-  EXPECT_NE(written(text).find("\n# points = \"sliding\": the default where all members are"), std::string::npos);
+  EXPECT_NE(written(text).find("\n# points = \"moving\": the default where all members are"), std::string::npos);
   EXPECT_NE(written(text + "[contact]\nmethod = \"penalty\"\npenalty = 1.0\n")
                 .find("\n# points = \"nodes\": method penalty puts springs at nodes\n"),
             std::string::npos);

@@ -16,7 +16,7 @@
 #include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
 
-namespace arcwall::landing_test {
+namespace arcwall::jump_test {
 namespace {
 
 using test::TracedDeck;
@@ -25,7 +25,7 @@ using test::TracedDeck;
 std::string truss(const std::string& depth) {
   return test::low_truss + R"toml([path]
 step = 0.3
-landing = true
+jumps = true
 branches = "primary"
 stop.w = [)toml" +
          depth + ", 0.5]\n";
@@ -39,7 +39,7 @@ section.s = { shape = "general", A = 6.0, I = 2.0 }
 point = { foot = [0.0, 0.0], corner = [0.0, 120.0], loaded = [24.0, 120.0], end = [120.0, 120.0] }
 support = { foot = ["x", "z"], end = ["x", "z"] }
 load = [{ at = "loaded", force = [0.0, -1.0] }]
-path = { step = 0.1, landing = true, stop = { w = [-95.0, 10.0] } }
+path = { step = 0.1, jumps = true, stop = { w = [-95.0, 10.0] } }
 monitor = [{ name = "u", at = "loaded", component = "x" }, { name = "w", at = "loaded", component = "z" }]
 [member.column]
 from = "foot"
@@ -66,7 +66,7 @@ section = "s"
 
 // A beam between walls as in the other tests of columns in a channel.
 const std::string channel =
-    test::pressed_column_in_channel(40, "landing = true, stop = { lambda = [-1.0, 10.0] }") + test::shortening;
+    test::pressed_column_in_channel(40, "jumps = true, stop = { lambda = [-1.0, 10.0] }") + test::shortening;
 
 // μ W ẋ = −F at fixed λ by steps x − (K + μ W)⁻¹ F of one Newton iteration each, no longer than a length that is
 // prescribed: no search, no energy, no contact.
@@ -90,53 +90,53 @@ State slow_motion(const System& system, State state, double mu, double longest) 
 // Shooting: the snap from two points above ends with one point above, one below, one above; mid −0.15, shortening
 // 0.357478384025, released 0.449814851283; back at 4.252069687267, loop 0.564429600789.
 void expect_the_fall_of_the_channel(const RecordEvent& snap) {
-  ASSERT_TRUE(snap.landing);
-  EXPECT_EQ(snap.landing->reason, "") << snap.landing->why;
-  EXPECT_EQ(snap.landing->word, "upper lower upper");
-  EXPECT_NEAR(snap.landing->monitors.at(0), -0.15, 1e-9);
-  EXPECT_NEAR(snap.landing->monitors.at(1), 0.357478384025, 1e-7);
-  EXPECT_NEAR(snap.landing->released, 0.449814851283, 1e-7);
-  ASSERT_TRUE(snap.landing->back);
-  EXPECT_EQ(snap.landing->back->kind, EventKind::contact_limit_point);
-  EXPECT_NEAR(snap.landing->back->lambda, 4.252069687267, 1e-7);
-  EXPECT_NEAR(snap.landing->loop.value(), 0.564429600789, 1e-6);
+  ASSERT_TRUE(snap.jump);
+  EXPECT_EQ(snap.jump->reason, "") << snap.jump->why;
+  EXPECT_EQ(snap.jump->contact_pattern, "upper lower upper");
+  EXPECT_NEAR(snap.jump->monitors.at(0), -0.15, 1e-9);
+  EXPECT_NEAR(snap.jump->monitors.at(1), 0.357478384025, 1e-7);
+  EXPECT_NEAR(snap.jump->energy_released, 0.449814851283, 1e-7);
+  ASSERT_TRUE(snap.jump->on_return);
+  EXPECT_EQ(snap.jump->on_return->kind, EventKind::contact_limit_point);
+  EXPECT_NEAR(snap.jump->on_return->lambda, 4.252069687267, 1e-7);
+  EXPECT_NEAR(snap.jump->energy_dissipated.value(), 0.564429600789, 1e-6);
 }
 
 }  // namespace
 
 // The truss falls from h (1 − 1/√3) to h (1 + 2/√3) = 2.1547005383793 and releases 7.3888900263118; it comes back by
 // the same, so that 14.777780052624 are lost. Closed forms.
-TEST(Landing, OfATrussIsThatOfTheClosedForm) {
+TEST(Jump, OfATrussIsThatOfTheClosedForm) {
   const TracedDeck traced(truss("-2.5"));
   const RecordEvent& snap = event_of(traced, EventKind::limit_point);
-  ASSERT_TRUE(snap.landing);
-  EXPECT_EQ(snap.landing->reason, "");
-  EXPECT_NEAR(snap.landing->monitors.at(0), -2.1547005383793, 1e-9);
-  EXPECT_NEAR(snap.landing->released, 7.3888900263118, 1e-9);
-  EXPECT_EQ(snap.landing->unstable, 0);
-  EXPECT_EQ(snap.landing->on_branch, 0);
-  ASSERT_TRUE(snap.landing->back);
-  EXPECT_NEAR(snap.landing->back->lambda, -snap.lambda, 1e-9);
-  ASSERT_TRUE(snap.landing->loop);
-  EXPECT_NEAR(*snap.landing->loop, 14.777780052624, 1e-9);
+  ASSERT_TRUE(snap.jump);
+  EXPECT_EQ(snap.jump->reason, "");
+  EXPECT_NEAR(snap.jump->monitors.at(0), -2.1547005383793, 1e-9);
+  EXPECT_NEAR(snap.jump->energy_released, 7.3888900263118, 1e-9);
+  EXPECT_EQ(snap.jump->unstable, 0);
+  EXPECT_EQ(snap.jump->on_branch, 0);
+  ASSERT_TRUE(snap.jump->on_return);
+  EXPECT_NEAR(snap.jump->on_return->lambda, -snap.lambda, 1e-9);
+  ASSERT_TRUE(snap.jump->energy_dissipated);
+  EXPECT_NEAR(*snap.jump->energy_dissipated, 14.777780052624, 1e-9);
 
   const auto json = event_json(traced.record(), snap);
-  EXPECT_NEAR(json["landing"]["monitors"]["w"].get<double>(), -2.1547005383793, 1e-9);
-  EXPECT_NE(events_text(traced.record()).find("falls to"), std::string::npos);
+  EXPECT_NEAR(json["jump"]["monitors"]["w"].get<double>(), -2.1547005383793, 1e-9);
+  EXPECT_NE(events_text(traced.record()).find("jumps to"), std::string::npos);
 }
 
-// A run that is read back has its landings, and none is looked for again.
-TEST(Landing, IsKeptInACheckpoint) {
+// A run that is read back has its jumps, and none is looked for again.
+TEST(Jump, IsKeptInACheckpoint) {
   Session run = test::traced(truss("-2.5"));
   const Session read = Session::from(run.checkpoint(), "checkpoint", Session::Resume::as_ended);
   const RecordEvent& snap = test::event_of(run.record(), EventKind::limit_point);
-  ASSERT_TRUE(snap.landing && snap.landing->back);
+  ASSERT_TRUE(snap.jump && snap.jump->on_return);
   EXPECT_EQ(event_json(read.record(), test::event_of(read.record(), EventKind::limit_point)),
             event_json(run.record(), snap));
 }
 
-// Who stops a run does not wait for a descent; who goes on with it has the landings at its end.
-TEST(Landing, IsNotLookedForWhereARunIsStopped) {
+// Who stops a run does not wait for a descent; who goes on with it has the jumps at its end.
+TEST(Jump, IsNotLookedForWhereARunIsStopped) {
   Session run = test::traced(truss("-2.5"));
   Session begun({.deck = "deck.toml", .deck_text = truss("-2.5")});
   ASSERT_TRUE(begun.begin());
@@ -144,7 +144,7 @@ TEST(Landing, IsNotLookedForWhereARunIsStopped) {
   const std::string checkpoint = begun.checkpoint();
   begun.stop({.reason = EndReason::interrupted, .detail = "enough"});
   EXPECT_EQ(begun.next(), nullptr);
-  EXPECT_FALSE(test::event_of(begun.record(), EventKind::limit_point).landing);
+  EXPECT_FALSE(test::event_of(begun.record(), EventKind::limit_point).jump);
 
   Session resumed = Session::from(checkpoint, "checkpoint", Session::Resume::go_on);
   while (resumed.next() != nullptr) {
@@ -154,29 +154,29 @@ TEST(Landing, IsNotLookedForWhereARunIsStopped) {
 }
 
 // A path that ends before it comes there: the state is found all the same, and the way back is followed from it.
-TEST(Landing, IsFoundWhereThePathDoesNotPass) {
+TEST(Jump, IsFoundWhereThePathDoesNotPass) {
   const TracedDeck traced(truss("-1.2"));
   const RecordEvent& snap = event_of(traced, EventKind::limit_point);
-  ASSERT_TRUE(snap.landing);
-  EXPECT_NEAR(snap.landing->monitors.at(0), -2.1547005383793, 1e-9);
-  EXPECT_FALSE(snap.landing->on_branch);
-  ASSERT_TRUE(snap.landing->back);
-  EXPECT_NEAR(snap.landing->back->lambda, -snap.lambda, 1e-9);
+  ASSERT_TRUE(snap.jump);
+  EXPECT_NEAR(snap.jump->monitors.at(0), -2.1547005383793, 1e-9);
+  EXPECT_FALSE(snap.jump->on_branch);
+  ASSERT_TRUE(snap.jump->on_return);
+  EXPECT_NEAR(snap.jump->on_return->lambda, -snap.lambda, 1e-9);
 }
 
 // The column traced to just behind its limit point alone: contact that slides is begun where the structure comes to
 // rest, and followed back from there.
-TEST(Landing, BeginsContactThatSlidesWhereThePathDoesNotPass) {
+TEST(Jump, BeginsContactThatSlidesWhereThePathDoesNotPass) {
   const TracedDeck traced(channel, {"path.max_points=33"});
   const RecordEvent& snap = event_of(traced, EventKind::limit_point);
   expect_the_fall_of_the_channel(snap);
-  EXPECT_FALSE(snap.landing->on_branch);
+  EXPECT_FALSE(snap.jump->on_branch);
 }
 
 // An arch under a load along it snaps onto a floor: onto a point of it, along a part that is pressed, and from end to
 // end where the floor is as high as the hinges. Where the path passes the state it is that of the path, which was
 // traced to it through every change of contact.
-TEST(Landing, OnAFloorIsThatOfThePathWhereverThatEndsSlow) {
+TEST(Jump, OnAFloorIsThatOfThePathWhereverThatEndsSlow) {
   struct Floor {
     std::string z, word;
   };
@@ -184,36 +184,36 @@ TEST(Landing, OnAFloorIsThatOfThePathWhereverThatEndsSlow) {
     const std::string arch = test::arch_above_a_floor(floor.z);
     const TracedDeck whole(arch), part(arch, {"path.max_points=10"});
     const RecordEvent &on_path = event_of(whole, EventKind::limit_point), &off = event_of(part, EventKind::limit_point);
-    ASSERT_TRUE(on_path.landing && off.landing);
-    EXPECT_TRUE(on_path.landing->on_branch);
-    EXPECT_FALSE(off.landing->on_branch);
-    EXPECT_EQ(on_path.landing->word, floor.word);
-    EXPECT_EQ(off.landing->word, floor.word);
-    EXPECT_NEAR(off.landing->monitors.at(0), on_path.landing->monitors.at(0), 1e-6);
-    EXPECT_NEAR(off.landing->released, on_path.landing->released, 1e-8);
+    ASSERT_TRUE(on_path.jump && off.jump);
+    EXPECT_TRUE(on_path.jump->on_branch);
+    EXPECT_FALSE(off.jump->on_branch);
+    EXPECT_EQ(on_path.jump->contact_pattern, floor.word);
+    EXPECT_EQ(off.jump->contact_pattern, floor.word);
+    EXPECT_NEAR(off.jump->monitors.at(0), on_path.jump->monitors.at(0), 1e-6);
+    EXPECT_NEAR(off.jump->energy_released, on_path.jump->energy_released, 1e-8);
   }
 }
 
 // Shooting: u 85.912715359, w −92.553278331, released 82.328152133, back at −0.94144315556, loop 215.843460563.
-TEST(Landing, OfLeesFrameIsThatOfShooting) {
+TEST(Jump, OfLeesFrameIsThatOfShooting) {
   const TracedDeck traced(lee);
   const RecordEvent& snap = event_of(traced, EventKind::limit_point);
-  ASSERT_TRUE(snap.landing && snap.landing->back);
-  EXPECT_NEAR(snap.landing->monitors.at(0), 85.912715359, 1e-5);
-  EXPECT_NEAR(snap.landing->monitors.at(1), -92.553278331, 1e-5);
-  EXPECT_NEAR(snap.landing->released, 82.328152133, 1e-4);
-  EXPECT_NEAR(snap.landing->back->lambda, -0.94144315556, 1e-7);
-  EXPECT_NEAR(snap.landing->loop.value(), 215.843460563, 1e-4);
+  ASSERT_TRUE(snap.jump && snap.jump->on_return);
+  EXPECT_NEAR(snap.jump->monitors.at(0), 85.912715359, 1e-5);
+  EXPECT_NEAR(snap.jump->monitors.at(1), -92.553278331, 1e-5);
+  EXPECT_NEAR(snap.jump->energy_released, 82.328152133, 1e-4);
+  EXPECT_NEAR(snap.jump->on_return->lambda, -0.94144315556, 1e-7);
+  EXPECT_NEAR(snap.jump->energy_dissipated.value(), 215.843460563, 1e-4);
 
   // The same state by a motion of another rule.
   const System& system = traced.model().system();
   State start = traced.record().points[static_cast<std::size_t>(snap.step) + 1].state;
   start.lambda = snap.lambda;
   const State rest = slow_motion(system, start, 2e3, 0.01);
-  EXPECT_NEAR(traced.model().monitors()[1].quantity->value(rest), snap.landing->monitors.at(1), 1e-8);
+  EXPECT_NEAR(traced.model().monitors()[1].quantity->value(rest), snap.jump->monitors.at(1), 1e-8);
 }
 
-TEST(Landing, OfAColumnInAChannelIsThatOfShooting) {
+TEST(Jump, OfAColumnInAChannelIsThatOfShooting) {
   const TracedDeck traced(channel);
   expect_the_fall_of_the_channel(event_of(traced, EventKind::limit_point));
 }
@@ -238,53 +238,53 @@ std::string steep_truss(const std::string& branches) {
 
 // With P L³ = z (25 − z²) at z = √23 it falls to the other root of z³ − 25 z + 2 √23 = 0 below, z = −(√23 + √31)/2:
 // to the right and to the left alike, also where the path itself goes straight on.
-TEST(Landing, OfABranchPointWhoseBranchIsUnstable) {
-  for (const char* branches : {"follow", "primary"}) {
+TEST(Jump, OfABranchPointWhoseBranchIsUnstable) {
+  for (const char* branches : {"most-stable", "primary"}) {
     const TracedDeck traced(steep_truss(branches));
     const RecordEvent& sway = event_of(traced, EventKind::branch_point);
-    ASSERT_TRUE(sway.landing) << branches;
-    EXPECT_EQ(sway.landing->reason, "");
-    EXPECT_NEAR(sway.landing->monitors.at(0), -0.5 * (std::sqrt(23.0) + std::sqrt(31.0)) - 5.0, 1e-9);
+    ASSERT_TRUE(sway.jump) << branches;
+    EXPECT_EQ(sway.jump->reason, "");
+    EXPECT_NEAR(sway.jump->monitors.at(0), -0.5 * (std::sqrt(23.0) + std::sqrt(31.0)) - 5.0, 1e-9);
   }
 }
 
 // Above a floor z = −2.5 + 0.2 x it falls to the right or to the left. On the floor Π has a minimum at x = 4.4481035
 // and one at x = −3.6490728, at heights of −6.61037929601187 and −8.22981456547270 below the top; 0.30883094333755 and
 // 0.48479403612256 are released. Minima of the bars' energy along the line, by Newton's method with 40 digits.
-TEST(Landing, OfBothSensesOfAModeIsToldWhereTheyDiffer) {
-  const std::string deck = steep_truss("follow") + R"toml(
+TEST(Jump, OfBothSensesOfAModeIsToldWhereTheyDiffer) {
+  const std::string deck = steep_truss("most-stable") + R"toml(
 [[wall]]
 name = "floor"
 side = "below"
-acts_on = "axis"
+contact_surface = "axis"
 profile = { type = "line", z = -2.5, slope = 0.2 }
 )toml";
   const Session run = test::traced(deck);
   const RecordEvent& sway = test::event_of(run.record(), EventKind::branch_point);
-  ASSERT_TRUE(sway.landing);
-  EXPECT_EQ(sway.landing->reason, "several") << sway.landing->why;
-  ASSERT_EQ(sway.landing->several.size(), 2U);
-  const RecordLanding *right = &sway.landing->several[0], *left = &sway.landing->several[1];
+  ASSERT_TRUE(sway.jump);
+  EXPECT_EQ(sway.jump->reason, "two_destinations") << sway.jump->why;
+  ASSERT_EQ(sway.jump->destinations.size(), 2U);
+  const RecordJump *right = &sway.jump->destinations[0], *left = &sway.jump->destinations[1];
   if (right->monitors.at(0) < left->monitors.at(0)) std::swap(right, left);
   EXPECT_NEAR(right->monitors.at(0), -6.61037929601187, 1e-9);
   EXPECT_NEAR(left->monitors.at(0), -8.22981456547270, 1e-9);
-  EXPECT_NEAR(right->released, 0.30883094333755, 1e-9);
-  EXPECT_NEAR(left->released, 0.48479403612256, 1e-9);
-  EXPECT_EQ(right->word, "floor");
+  EXPECT_NEAR(right->energy_released, 0.30883094333755, 1e-9);
+  EXPECT_NEAR(left->energy_released, 0.48479403612256, 1e-9);
+  EXPECT_EQ(right->contact_pattern, "floor");
 
   const auto json = event_json(run.record(), sway);
-  EXPECT_EQ(json["landing"]["reason"], "several");
-  EXPECT_EQ(json["landing"]["several"].size(), 2U);
+  EXPECT_EQ(json["jump"]["reason"], "two_destinations");
+  EXPECT_EQ(json["jump"]["two_destinations"].size(), 2U);
   Session kept = test::traced(deck);
   const Session read = Session::from(kept.checkpoint(), "checkpoint", Session::Resume::as_ended);
   EXPECT_EQ(event_json(read.record(), test::event_of(read.record(), EventKind::branch_point)), json);
 }
 
 // What a descent may do is bounded by what it is given.
-TEST(Landing, TakesNoMoreWorkThanItIsGiven) {
+TEST(Jump, TakesNoMoreWorkThanItIsGiven) {
   const TracedDeck traced(lee, {"path.max_points=40"});
   const RecordEvent& snap = event_of(traced, EventKind::limit_point);
-  ASSERT_TRUE(snap.landing);
+  ASSERT_TRUE(snap.jump);
   Index work = 0;
   const DeckMesh mesh(traced.model());
   const auto& points = traced.record().points;
@@ -306,7 +306,7 @@ TEST(Landing, TakesNoMoreWorkThanItIsGiven) {
 }
 
 // A column that buckles into the post-buckling branch, which is stable, does not fall.
-TEST(Landing, IsNoneWhereTheBranchBehindIsStable) {
+TEST(Jump, IsNoneWhereTheBranchBehindIsStable) {
   const TracedDeck traced(R"toml(
 title = "A straight column"
 material.m = { E = 21000.0 }
@@ -314,10 +314,10 @@ section.s = { shape = "general", A = 0.01, I = 8.333333333333333e-6 }
 point = { A = [0.0, 0.0], B = [2.0, 0.0] }
 support = { A = ["x", "z"], B = ["z"] }
 load = [{ at = "B", force = [-1.0, 0.0] }]
-path = { step = 0.05, landing = true, stop = { lambda = [-1.0, 0.5] } }
+path = { step = 0.05, jumps = true, stop = { lambda = [-1.0, 0.5] } }
 member.c = { from = "A", to = "B", theory = "elastica", elements = 16, material = "m", section = "s" }
 )toml");
-  EXPECT_FALSE(event_of(traced, EventKind::branch_point).landing);
+  EXPECT_FALSE(event_of(traced, EventKind::branch_point).jump);
 }
 
-}  // namespace arcwall::landing_test
+}  // namespace arcwall::jump_test

@@ -17,7 +17,7 @@
 #include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
 
-namespace arcwall::landing_motion_test {
+namespace arcwall::jump_motion_test {
 namespace {
 
 using test::TracedDeck;
@@ -71,11 +71,11 @@ std::ostream& operator<<(std::ostream& out, const Problem& problem) { return out
 const std::string bars_above_a_stop = test::low_truss + R"toml([[wall]]
 name = "stop"
 side = "below"
-acts_on = "axis"
+contact_surface = "axis"
 profile = { type = "flat", z = -0.5 }
 [path]
 step = 0.3
-landing = true
+jumps = true
 stop = { lambda = [-5.0, 5.0] }
 )toml";
 
@@ -83,17 +83,17 @@ stop = { lambda = [-5.0, 5.0] }
 std::vector<Problem> problems() {
   constexpr double of_nodes = 0.02;
   const std::string channel(test::example("channel")), arch(test::example("arch"));
-  const auto landing = [](Assignments more = {}) {
-    more.emplace_back("path.landing=true");
+  const auto jump = [](Assignments more = {}) {
+    more.emplace_back("path.jumps=true");
     return more;
   };
   return {
-      {"ShallowArch", arch, landing()},
-      {"TwoBars", std::string(test::example("truss")), landing()},
-      {"Lee", std::string(test::example("lee")), landing()},
+      {"ShallowArch", arch, jump()},
+      {"TwoBars", std::string(test::example("truss")), jump()},
+      {"Lee", std::string(test::example("lee")), jump()},
       {"TwoBarsOnAStop", bars_above_a_stop, {}, 1e-5},
-      {"Channel", channel, landing(), of_nodes},
-      {"NarrowerChannel", channel, landing({"wall.upper.profile.z=0.19"}), of_nodes},
+      {"Channel", channel, jump(), of_nodes},
+      {"NarrowerChannel", channel, jump({"wall.upper.profile.z=0.19"}), of_nodes},
       {"ArchOnALowFloor", test::arch_above_a_floor("-0.08"), {}, 1e-5},
       {"ArchOnAFloor", test::arch_above_a_floor("-0.06"), {}, 1e-5},
       {"ArchPressedOnAFloor", test::arch_above_a_floor("-0.02"), {}, 1e-3},
@@ -110,7 +110,7 @@ TEST_P(FallenStructure, IsWhereASlowMotionAmongSpringsEnds) {
   const TracedDeck traced(problem.deck, problem.assignments);
   int fallen = 0;
   for (const RecordEvent& event : traced.record().events) {
-    if (!event.landing || !event.landing->reason.empty()) continue;
+    if (!event.jump || !event.jump->reason.empty()) continue;
     ++fallen;
     // The same deck with its contact at nodes and walls that give way.
     Assignments assignments = problem.assignments;
@@ -133,7 +133,7 @@ TEST_P(FallenStructure, IsWhereASlowMotionAmongSpringsEnds) {
       // As soft() reads it: its states have the deck's mesh.
       const double found = soft.model().monitors()[m].quantity->value(rest);
       const double size = traced.model().structure().length_scale();
-      EXPECT_NEAR(found, event.landing->monitors[m], problem.tolerance * size)
+      EXPECT_NEAR(found, event.jump->monitors[m], problem.tolerance * size)
           << traced.model().monitors()[m].name << " of event " << event.id;
     }
   }
@@ -180,12 +180,12 @@ struct Sides {
 };
 
 Sides sides(const Record& record, const RecordEvent& event) {
-  const RecordLanding& landing = *event.landing;
+  const RecordJump& jump = *event.jump;
   Sides found;
   for (const RecordPoint& point : record.points) {
-    if (point.lambda < landing.back->lambda || point.lambda > event.lambda || point.count.unstable != 0) continue;
+    if (point.lambda < jump.on_return->lambda || point.lambda > event.lambda || point.count.unstable != 0) continue;
     if (point.branch == event.branch && point.arc < event.arc) found.left.push_back(&point);
-    if (point.branch == *landing.on_branch && point.arc > event.arc) found.reached.push_back(&point);
+    if (point.branch == *jump.on_branch && point.arc > event.arc) found.reached.push_back(&point);
   }
   return found;
 }
@@ -208,10 +208,10 @@ double at(const TracedDeck& traced, const std::vector<const RecordPoint*>& side,
 
 std::vector<Problem> loops() {
   const std::string channel(test::example("channel"));
-  const Assignments landing{"path.landing=true"};
-  const auto with = [&](const char* more) { return Assignments{"path.landing=true", more}; };
+  const Assignments jump{"path.jumps=true"};
+  const auto with = [&](const char* more) { return Assignments{"path.jumps=true", more}; };
   const Assignments lower{"member.arch.sine.rise=0.08"};
-  return {{"Channel", channel, landing},
+  return {{"Channel", channel, jump},
           {"WiderChannel", channel, with("wall.upper.profile.z=0.21")},
           {"HardlyWiderChannel", channel, with("wall.upper.profile.z=0.205")},
           {"ArchThatMeetsNoFloor", test::arch_above_a_floor("-0.3"), {}},
@@ -234,10 +234,10 @@ TEST_P(HysteresisLoop, LosesTheWorkOfTheLoad) {
   const TracedDeck first(problem.deck, problem.assignments);
   const auto& events = first.record().events;
   const auto falls = std::find_if(events.begin(), events.end(), [](const RecordEvent& event) {
-    return event.landing && event.landing->loop && event.landing->on_branch;
+    return event.jump && event.jump->energy_dissipated && event.jump->on_branch;
   });
   ASSERT_NE(falls, events.end());
-  const double top = falls->lambda, bottom = falls->landing->back->lambda;
+  const double top = falls->lambda, bottom = falls->jump->on_return->lambda;
   const double least = 1e-6 * (top - bottom);
   std::vector<double> ends{bottom, top};
   for (const RecordEvent& event : events)
@@ -255,18 +255,18 @@ TEST_P(HysteresisLoop, LosesTheWorkOfTheLoad) {
     }
   }
   Assignments dense_assignments = problem.assignments;
-  dense_assignments.push_back("path.land.lambda=[" + land + "]");
+  dense_assignments.push_back("path.output_at.lambda=[" + land + "]");
   const TracedDeck dense(problem.deck, dense_assignments);
   const RecordEvent& same = dense.record().events.at(static_cast<std::size_t>(falls->id));
-  ASSERT_TRUE(same.landing && same.landing->on_branch);
+  ASSERT_TRUE(same.jump && same.jump->on_branch);
   const Sides found = sides(dense.record(), same);
   double area = 0.0;
   for (const Place& place : places)
     area += place.weight * (at(dense, found.reached, place.lambda) - at(dense, found.left, place.lambda));
-  EXPECT_NEAR(area / *falls->landing->loop, 1.0, 1e-6);
+  EXPECT_NEAR(area / *falls->jump->energy_dissipated, 1.0, 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Problems, HysteresisLoop, testing::ValuesIn(loops()),
                          [](const auto& problem) { return problem.param.name + "Slow"; });
 
-}  // namespace arcwall::landing_motion_test
+}  // namespace arcwall::jump_motion_test

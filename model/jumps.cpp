@@ -1,4 +1,4 @@
-#include "model/landings.hpp"
+#include "model/jumps.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "continuation/answers/descent.hpp"
 #include "continuation/answers/equilibrium_at.hpp"
 #include "continuation/tracer.hpp"
-#include "model/contact_words.hpp"
+#include "model/contact_pattern.hpp"
 #include "model/deck_mesh.hpp"
 #include "model/event_names.hpp"
 #include "model/mirror_images.hpp"
@@ -43,12 +43,12 @@ std::vector<OnPath> stable_at(const Model& model, const Record& record, double l
   return found;
 }
 
-void tell_state(const Model& model, const State& state, RecordLanding& landing) {
-  landing.lambda = state.lambda;
-  for (const MonitorColumn& column : model.monitors()) landing.monitors.push_back(column.quantity->value(state));
-  landing.contacts = stretches_of(model, state);
-  landing.word = word_of(landing.contacts);
-  landing.energy = model.system().energy(state);
+void tell_state(const Model& model, const State& state, RecordJump& jump) {
+  jump.lambda = state.lambda;
+  for (const MonitorColumn& column : model.monitors()) jump.monitors.push_back(column.quantity->value(state));
+  jump.contacts = stretches_of(model, state);
+  jump.contact_pattern = contact_pattern_of(jump.contacts);
+  jump.energy = model.system().energy(state);
 }
 
 // --- one fall -------------------------------------------------------------------------------------------------------
@@ -67,7 +67,7 @@ struct Loss {
 bool loses_stability(const auto& event) {
   const bool kind = event.kind == EventKind::limit_point || event.kind == EventKind::contact_limit_point ||
                     event.kind == EventKind::branch_point;
-  return kind && !event.suspected && event.unstable_before == 0 && event.unstable_after.value_or(0) > 0;
+  return kind && !event.unconfirmed && event.unstable_before == 0 && event.unstable_after.value_or(0) > 0;
 }
 
 class Falls {
@@ -87,25 +87,25 @@ class Falls {
 
   // Where the structure falls to from an event at a point of the record; null where it stays beside it. From a branch
   // point in both senses.
-  std::shared_ptr<const RecordLanding> from(const RecordEvent& event, std::size_t point) {
+  std::shared_ptr<const RecordJump> from(const RecordEvent& event, std::size_t point) {
     if (is_followed(event, point)) return nullptr;
     const Loss loss = recorded(event, point, 1);
     State rest, other_rest;
-    auto landing = fall_and_back(event, point, loss, rest);
-    if (event.kind != EventKind::branch_point) return landing;
+    auto jump = fall_and_back(event, point, loss, rest);
+    if (event.kind != EventKind::branch_point) return jump;
     Loss opposite = loss;
     opposite.sense = -1.0;
     auto other = fall_and_back(event, point, opposite, other_rest);
-    if (!landing || !other) return landing ? landing : other;
-    if (other->why == took_too_long) return landing;  // of which nothing is known
-    if (landing->why == took_too_long) return other;
-    if (landing->reason == other->reason && (!landing->reason.empty() || are_alike(*landing, rest, *other, other_rest)))
-      return landing;
-    auto several = std::make_shared<RecordLanding>();
-    several->reason = "several";
+    if (!jump || !other) return jump ? jump : other;
+    if (other->why == took_too_long) return jump;  // of which nothing is known
+    if (jump->why == took_too_long) return other;
+    if (jump->reason == other->reason && (!jump->reason.empty() || are_alike(*jump, rest, *other, other_rest)))
+      return jump;
+    auto several = std::make_shared<RecordJump>();
+    several->reason = "two_destinations";
     several->why = "the senses of the mode lead to different ends";
     several->lambda = event.lambda;
-    several->several = {std::move(*landing), std::move(*other)};
+    several->destinations = {std::move(*jump), std::move(*other)};
     return several;
   }
 
@@ -121,17 +121,17 @@ class Falls {
     });
   }
 
-  std::shared_ptr<RecordLanding> fall_and_back(const RecordEvent& event, std::size_t point, const Loss& loss,
-                                               State& rest) {
-    auto landing = fall(loss, rest);
-    if (!landing || !landing->reason.empty()) return landing;
+  std::shared_ptr<RecordJump> fall_and_back(const RecordEvent& event, std::size_t point, const Loss& loss,
+                                            State& rest) {
+    auto jump = fall(loss, rest);
+    if (!jump || !jump->reason.empty()) return jump;
     const double ahead = point > 0 ? event.lambda - record_.points[point - 1].lambda : 0.0;
-    if (ahead != 0.0) add_way_back(event, rest, ahead, *landing);
-    return landing;
+    if (ahead != 0.0) add_way_back(event, rest, ahead, *jump);
+    return jump;
   }
 
-  // Whether two landings are one state, or images of each other in a mirror.
-  bool are_alike(const RecordLanding& a, const State& rest_a, const RecordLanding& b, const State& rest_b) const {
+  // Whether two jumps are one state, or images of each other in a mirror.
+  bool are_alike(const RecordJump& a, const State& rest_a, const RecordJump& b, const State& rest_b) const {
     constexpr double same_energy = 1e-6;  // of the energy
     if (std::abs(a.energy - b.energy) > same_energy * std::max(std::abs(a.energy), std::abs(b.energy))) return false;
     const Vector x = mesh_.unknowns(rest_a), y = mesh_.unknowns(rest_b);
@@ -197,44 +197,44 @@ class Falls {
   }
 
   // `rest` becomes the state.
-  std::shared_ptr<RecordLanding> fall(const Loss& loss, State& rest) {
+  std::shared_ptr<RecordJump> fall(const Loss& loss, State& rest) {
     if (!loss.behind) return nullptr;
     const Vector start = mesh_.unknowns(loss.at), behind = loss.sense * (mesh_.unknowns(*loss.behind) - start);
     const double far = mesh_.length(behind);
-    auto landing = std::make_shared<RecordLanding>();
-    landing->lambda = loss.at.lambda;
+    auto jump = std::make_shared<RecordJump>();
+    jump->lambda = loss.at.lambda;
     bool left = false;
     for (const double push : pushes) {
       const Vector pushed = start + std::max(1.0, push / far) * behind;
       const Descent descent =
           descend(mesh_.system(), mesh_.state(pushed, loss.at.lambda), model_.options().factorization, left_);
       if (descent.end == DescentEnd::falls_away) {
-        landing->reason = "falls_away";
-        landing->why = "nothing holds the structure at this load";
-        return landing;
+        jump->reason = "no_equilibrium";
+        jump->why = "nothing holds the structure at this load";
+        return jump;
       }
       if (descent.end == DescentEnd::cut_off) {
-        landing->reason = "not_found";
-        landing->why = took_too_long;
-        return landing;
+        jump->reason = "not_found";
+        jump->why = took_too_long;
+        return jump;
       }
       // Near a branch point from which a stable branch leaves it creeps back.
       if (mesh_.distance(descent.state.x.head(mesh_.size()), start) <= is_elsewhere) continue;
       if (descent.end == DescentEnd::not_found) {
-        landing->reason = "not_found";
-        landing->why = "the descent came to no rest";
+        jump->reason = "not_found";
+        jump->why = "the descent came to no rest";
         left = true;
         continue;
       }
       rest = descent.state;
-      settle(loss, rest, *landing);
-      return landing;
+      settle(loss, rest, *jump);
+      return jump;
     }
-    return left ? landing : nullptr;
+    return left ? jump : nullptr;
   }
 
   // The state at rest in the path's own formulation, counted.
-  void settle(const Loss& loss, State& rest, RecordLanding& landing) const {
+  void settle(const Loss& loss, State& rest, RecordJump& jump) const {
     const std::optional<State> found = in_path_formulation(rest);
     const Vector x = found ? mesh_.unknowns(*found) : rest.x.head(mesh_.size());
     const OnPath* nearest = nullptr;
@@ -247,20 +247,20 @@ class Falls {
       nearest = &one;
     }
     if (nearest != nullptr) {
-      landing.on_branch = record_.points[nearest->point].branch;
-      landing.arc = nearest->arc;
-      landing.point = nearest->point;
+      jump.on_branch = record_.points[nearest->point].branch;
+      jump.arc = nearest->arc;
+      jump.point = nearest->point;
       rest = nearest->state;
     } else if (found) {
       rest = *found;
     } else {
-      landing.reason = "not_found";
-      landing.why = "it comes to rest where the traced path does not pass, and contact that slides is not found there";
+      jump.reason = "not_found";
+      jump.why = "it comes to rest where the traced path does not pass, and contact that slides is not found there";
       return;
     }
-    tell_state(model_, rest, landing);
-    landing.unstable = 0;
-    landing.released = loss.energy - landing.energy;
+    tell_state(model_, rest, jump);
+    jump.unstable = 0;
+    jump.energy_released = loss.energy - jump.energy;
   }
 
   // The same stable state in the path's own formulation.
@@ -278,30 +278,29 @@ class Falls {
 
   // λ, which increased by `ahead` on the way to the event, goes back from the state at rest, and the structure falls
   // again where that loses its stability.
-  void add_way_back(const RecordEvent& event, const State& rest, double ahead, RecordLanding& landing) {
-    const std::optional<Loss> lost =
-        landing.on_branch ? recorded_back(landing, ahead) : traced(rest, far_back(event, ahead));
+  void add_way_back(const RecordEvent& event, const State& rest, double ahead, RecordJump& jump) {
+    const std::optional<Loss> lost = jump.on_branch ? recorded_back(jump, ahead) : traced(rest, far_back(event, ahead));
     if (!lost) return;
-    auto way = std::make_shared<RecordWayBack>();
+    auto way = std::make_shared<RecordReturn>();
     way->lambda = lost->at.lambda;
     way->kind = lost->kind;
     for (const MonitorColumn& column : model_.monitors()) way->monitors.push_back(column.quantity->value(lost->at));
     State back;
     const auto again = fall(*lost, back);
-    way->landing = again;
+    way->jump = again;
     if (again && again->reason.empty() && is_before(event, *again, back))
-      landing.loop = landing.released + again->released;
-    landing.back = std::move(way);
+      jump.energy_dissipated = jump.energy_released + again->energy_released;
+    jump.on_return = std::move(way);
   }
 
-  // The first loss of stability on the branch of a landing, with λ going against `ahead`.
-  std::optional<Loss> recorded_back(const RecordLanding& landing, double ahead) const {
-    const RecordPoint &a = record_.points[landing.point], &b = record_.points[landing.point + 1];
+  // The first loss of stability on the branch of a jump, with λ going against `ahead`.
+  std::optional<Loss> recorded_back(const RecordJump& jump, double ahead) const {
+    const RecordPoint &a = record_.points[jump.point], &b = record_.points[jump.point + 1];
     const int back = (b.lambda - a.lambda) * ahead > 0.0 ? -1 : 1;  // along the record
-    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(landing.point) + (back > 0 ? 1 : 0);
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(jump.point) + (back > 0 ? 1 : 0);
     for (std::ptrdiff_t i = first; i >= 0 && i < static_cast<std::ptrdiff_t>(record_.points.size()); i += back) {
       const auto k = static_cast<std::size_t>(i);
-      if (record_.points[k].branch != *landing.on_branch) return std::nullopt;
+      if (record_.points[k].branch != *jump.on_branch) return std::nullopt;
       if (const RecordEvent* const lost = loss_at(k, back)) return recorded(*lost, k, back);
     }
     return std::nullopt;
@@ -320,9 +319,9 @@ class Falls {
 
   // Whether a structure is again on the way to an event, so that the loop closes: on its branch before it, or where the
   // branch's first point is reached by λ alone.
-  bool is_before(const RecordEvent& event, const RecordLanding& landing, const State& state) const {
+  bool is_before(const RecordEvent& event, const RecordJump& jump, const State& state) const {
     constexpr double same = 1e-6;
-    if (landing.on_branch) return landing.on_branch == event.branch && landing.arc <= event.arc;
+    if (jump.on_branch) return jump.on_branch == event.branch && jump.arc <= event.arc;
     const RecordPoint& first = first_point(event.branch);
     const auto there = at_lambda(model_, state, first.lambda);
     return there && mesh_.distance(mesh_.unknowns(there->state), mesh_.unknowns(first.state)) <= same;
@@ -359,20 +358,20 @@ std::optional<std::size_t> point_of(const Record& record, const RecordEvent& eve
 
 }  // namespace
 
-void add_landings(const Model& model, Record& record) {
-  const bool falls = model.whole_deck().path.landing && record.stages.empty() && !model.in_increments();
+void add_jumps(const Model& model, Record& record) {
+  const bool falls = model.whole_deck().path.jumps && record.stages.empty() && !model.in_increments();
   if (!falls) return;
   Falls of(model, record);
   for (RecordEvent& event : record.events) {
     const auto point = loses_stability(event) ? point_of(record, event) : std::nullopt;
     if (!point) continue;
     if (of.can_fall()) {
-      event.landing = of.from(event, *point);
+      event.jump = of.from(event, *point);
     } else {
-      event.landing =
-          std::make_shared<RecordLanding>(RecordLanding{.reason = "not_found",
-                                                        .why = "the deck's mesh has unknowns that its contact does not",
-                                                        .lambda = event.lambda});
+      event.jump =
+          std::make_shared<RecordJump>(RecordJump{.reason = "not_found",
+                                                  .why = "the deck's mesh has unknowns that its contact does not",
+                                                  .lambda = event.lambda});
     }
   }
 }

@@ -9,13 +9,13 @@
 
 namespace arcwall {
 
-/// Where structures fall to, as a table: a row an event that has a landing, or one each where it has several. Empty
+/// Where structures fall to, as a table: a row an event that has a jump, or one each where it has several. Empty
 /// where none has.
-std::vector<TableColumn> landing_columns(const Record& record);
-std::vector<std::vector<std::string>> landing_rows(const Record& record);
+std::vector<TableColumn> jump_columns(const Record& record);
+std::vector<std::vector<std::string>> jump_rows(const Record& record);
 
-/// A landing as it stands in events.json.
-nlohmann::ordered_json landing_json(const Record& record, const RecordLanding& landing);
+/// A jump as it stands in events.json.
+nlohmann::ordered_json jump_json(const Record& record, const RecordJump& jump);
 
 /// A fall at one λ: from a point of the curve to another.
 struct Jump {

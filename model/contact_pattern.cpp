@@ -1,4 +1,4 @@
-#include "model/contact_words.hpp"
+#include "model/contact_pattern.hpp"
 
 #include <cmath>
 #include <optional>
@@ -22,7 +22,7 @@ std::vector<RecordStretch> stretches_of_nodes(const Model& model, const State& s
   };
   for (const ContactPoint& contact : model.contacts()->closed_contacts(state)) {
     if (follows(contact.label)) {
-      stretches.back().is_line = true;
+      stretches.back().is_zone = true;
       stretches.back().force += contact.force;
     } else {
       stretches.push_back({.label = contact.label, .force = contact.force});
@@ -43,7 +43,7 @@ std::vector<RecordStretch> stretches_that_slide(const SlidingContact& contact, c
     const ContactPoint here = contact.contact(state, static_cast<Index>(k));
     const bool is_point = k < layout.points().size();
     if (is_point && k > 0 && layout.points()[k - 1].behind != Span::free) {
-      stretches.back().is_line = true;
+      stretches.back().is_zone = true;
       stretches.back().force += here.force;
     } else {
       stretches.push_back({.label = here.label, .force = here.force});
@@ -60,7 +60,7 @@ std::vector<RecordStretch> stretches_that_slide(const SlidingContact& contact, c
       stretches.push_back({.label = pressed[i].label});
     }
     RecordStretch& stretch = stretches[part.has_point() ? of_point[part.end_point()] : *whole];
-    stretch.is_line = true;
+    stretch.is_zone = true;
     stretch.force += pressed[i].force;
   }
   return stretches;
@@ -73,10 +73,10 @@ std::vector<RecordStretch> stretches_of(const Model& model, const State& state) 
   return model.sliding() != nullptr ? stretches_that_slide(*model.sliding(), state) : stretches_of_nodes(model, state);
 }
 
-std::string word_of(const std::vector<RecordStretch>& stretches) {
+std::string contact_pattern_of(const std::vector<RecordStretch>& stretches) {
   std::string word;
   for (const RecordStretch& one : stretches)
-    word += (word.empty() ? "" : " ") + one.label.wall + (one.is_line ? "=" : "");
+    word += (word.empty() ? "" : " ") + one.label.wall + (one.is_zone ? "=" : "");
   return word;
 }
 

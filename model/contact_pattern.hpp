@@ -12,6 +12,6 @@ namespace arcwall {
 std::vector<RecordStretch> stretches_of(const Model& model, const State& state);
 
 /// The walls of these, `upper lower upper`, with `upper=` for a stretch.
-std::string word_of(const std::vector<RecordStretch>& stretches);
+std::string contact_pattern_of(const std::vector<RecordStretch>& stretches);
 
 }  // namespace arcwall

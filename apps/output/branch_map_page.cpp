@@ -1,4 +1,4 @@
-#include "apps/output/atlas_page.hpp"
+#include "apps/output/branch_map_page.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,8 @@ using OrderedJson = nlohmann::ordered_json;
 
 namespace {
 
-// --- atlas.json -----------------------------------------------------------------------------------------------------
+// --- branches.json
+// -----------------------------------------------------------------------------------------------------
 
 OrderedJson finite(double value) { return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr); }
 
@@ -25,16 +26,16 @@ OrderedJson or_null(const std::optional<Value>& value) {
   return value ? OrderedJson(*value) : OrderedJson(nullptr);
 }
 
-OrderedJson node_json(const Record& record, const AtlasNode& node, std::size_t id) {
-  const RecordPoint &first = record.points[node.first], &last = record.points[node.last];
+OrderedJson segment_json(const Record& record, const BranchMapSegment& segment, std::size_t id) {
+  const RecordPoint &first = record.points[segment.first], &last = record.points[segment.last];
   return {{"id", id},
-          {"branch", node.branch},
+          {"branch", segment.branch},
           {"steps", {first.step, last.step}},
-          {"word", node.word},
+          {"contact_pattern", segment.contact_pattern},
           {"lambda", {finite(first.lambda), finite(last.lambda)}},
           {"energy", {finite(first.energy), finite(last.energy)}},
-          {"unstable", or_null(node.unstable)},
-          {"images", node.images}};
+          {"unstable", or_null(segment.unstable)},
+          {"images", segment.images}};
 }
 
 // --- the picture ----------------------------------------------------------------------------------------------------
@@ -48,35 +49,35 @@ struct Axis {
 
 std::string count_text(const std::optional<Index>& unstable) { return unstable ? std::to_string(*unstable) : "?"; }
 
-std::string name_of(const AtlasNode& node, std::size_t id) {
-  return fmt::format("{}: {}", id, node.word.empty() ? "no contact" : plain(node.word, 40));
+std::string name_of(const BranchMapSegment& segment, std::size_t id) {
+  return fmt::format("{}: {}", id, segment.contact_pattern.empty() ? "no contact" : plain(segment.contact_pattern, 40));
 }
 
-double lane_of(std::size_t node) { return top + lane * (double(node) + 0.5); }
+double lane_of(std::size_t segment) { return top + lane * (double(segment) + 0.5); }
 
 // Dashed where the state is unstable, as along the curves.
-std::string node_svg(const Record& record, const Axis& axis, const AtlasNode& node, std::size_t id) {
-  const RecordPoint &a = record.points[node.first], &b = record.points[node.last];
+std::string segment_svg(const Record& record, const Axis& axis, const BranchMapSegment& segment, std::size_t id) {
+  const RecordPoint &a = record.points[segment.first], &b = record.points[segment.last];
   const double y = lane_of(id), end = std::max(axis.x(a.lambda), axis.x(b.lambda));
-  std::string label = fmt::format("{}, λ from {} to {}, unstable {}", name_of(node, id), shown_number(a.lambda, 8),
-                                  shown_number(b.lambda, 8), count_text(node.unstable));
+  std::string label = fmt::format("{}, λ from {} to {}, unstable {}", name_of(segment, id), shown_number(a.lambda, 8),
+                                  shown_number(b.lambda, 8), count_text(segment.unstable));
   return fmt::format(
              "<g><title>{}</title><line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
              "stroke-width=\"4\"{}/>",
-             escaped(label), axis.x(a.lambda), y, axis.x(b.lambda), y, branch_colour(node.branch),
-             node.unstable == Index{0} ? "" : " stroke-dasharray=\"5 4\"") +
+             escaped(label), axis.x(a.lambda), y, axis.x(b.lambda), y, branch_colour(segment.branch),
+             segment.unstable == Index{0} ? "" : " stroke-dasharray=\"5 4\"") +
          fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{} ({})</text></g>\n", end + 8.0, y + 4.0,
-                     escaped(name_of(node, id)), count_text(node.unstable));
+                     escaped(name_of(segment, id)), count_text(segment.unstable));
 }
 
-std::string edge_svg(const Axis& axis, const AtlasEdge& edge) {
+std::string edge_svg(const Axis& axis, const BranchMapEdge& edge) {
   if (!edge.to || *edge.to == edge.from) return "";
   const double x = axis.x(edge.lambda);
   return fmt::format(
       "<g><title>{}, λ = {}, from {} to {}</title><line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
       "stroke=\"#888\"{}/></g>\n",
       edge.kind, shown_number(edge.lambda, 8), edge.from, *edge.to, x, lane_of(edge.from), x, lane_of(*edge.to),
-      edge.kind == "landing" ? " stroke-width=\"2\" stroke-dasharray=\"2 3\"" : "");
+      edge.kind == "jump" ? " stroke-width=\"2\" stroke-dasharray=\"2 3\"" : "");
 }
 
 std::string axis_svg(const Axis& axis, double y) {
@@ -91,29 +92,30 @@ std::string axis_svg(const Axis& axis, double y) {
   return svg + fmt::format("<text class=\"axis\" x=\"{:.1f}\" y=\"{:.1f}\">λ</text>\n", width - right + 14.0, y + 18.0);
 }
 
-std::string picture(const Record& record, const Atlas& atlas) {
+std::string picture(const Record& record, const BranchMap& map) {
   Axis axis{.low = infinity, .high = -infinity};
-  for (const AtlasNode& node : atlas.nodes)
-    for (const std::size_t end : {node.first, node.last}) {
+  for (const BranchMapSegment& segment : map.segments)
+    for (const std::size_t end : {segment.first, segment.last}) {
       axis.low = std::min(axis.low, record.points[end].lambda);
       axis.high = std::max(axis.high, record.points[end].lambda);
     }
   if (!(axis.low < axis.high)) return "";
-  const double y = lane_of(atlas.nodes.size());
+  const double y = lane_of(map.segments.size());
   std::string svg = fmt::format(
-      "<svg id=\"atlas\" class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"States over λ and "
+      "<svg id=\"branch-map\" class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"States over λ "
+      "and "
       "what "
       "leads from one to another\">\n",
       width, y + bottom);
-  for (const AtlasEdge& edge : atlas.edges) svg += edge_svg(axis, edge);
-  for (std::size_t i = 0; i < atlas.nodes.size(); ++i) svg += node_svg(record, axis, atlas.nodes[i], i);
+  for (const BranchMapEdge& edge : map.edges) svg += edge_svg(axis, edge);
+  for (std::size_t i = 0; i < map.segments.size(); ++i) svg += segment_svg(record, axis, map.segments[i], i);
   return svg + axis_svg(axis, y) + "</svg>\n";
 }
 
 // Where which states are stable, neighbouring ranges with the same ones together.
-std::string stable_rows(const Atlas& atlas) {
-  std::vector<AtlasRange> ranges;
-  for (const AtlasRange& range : atlas.ranges) {
+std::string stable_rows(const BranchMap& map) {
+  std::vector<BranchMapRange> ranges;
+  for (const BranchMapRange& range : map.ranges) {
     const bool goes_on = !ranges.empty() && ranges.back().high == range.low && ranges.back().stable == range.stable &&
                          ranges.back().least == range.least;
     if (goes_on)
@@ -121,11 +123,11 @@ std::string stable_rows(const Atlas& atlas) {
     else
       ranges.push_back(range);
   }
-  const auto name = [&](std::size_t node) { return escaped(name_of(atlas.nodes[node], node)); };
+  const auto name = [&](std::size_t segment) { return escaped(name_of(map.segments[segment], segment)); };
   std::string rows;
-  for (const AtlasRange& range : ranges) {
+  for (const BranchMapRange& range : ranges) {
     std::string stable;
-    for (const std::size_t node : range.stable) stable += (stable.empty() ? "" : ", ") + name(node);
+    for (const std::size_t segment : range.stable) stable += (stable.empty() ? "" : ", ") + name(segment);
     rows += fmt::format("<tr><td class=\"figure\">{}</td><td class=\"figure\">{}</td><td>{}</td><td>{}</td></tr>\n",
                         shown_number(range.low, 8), shown_number(range.high, 8), stable.empty() ? "none" : stable,
                         range.least ? name(*range.least) : "");
@@ -135,39 +137,41 @@ std::string stable_rows(const Atlas& atlas) {
 
 }  // namespace
 
-OrderedJson atlas_json(const Record& record, const Atlas& atlas) {
-  OrderedJson nodes = OrderedJson::array(), edges = OrderedJson::array(), ranges = OrderedJson::array();
-  for (std::size_t i = 0; i < atlas.nodes.size(); ++i) nodes.push_back(node_json(record, atlas.nodes[i], i));
-  for (const AtlasEdge& edge : atlas.edges)
+OrderedJson branch_map_json(const Record& record, const BranchMap& map) {
+  OrderedJson segments = OrderedJson::array(), edges = OrderedJson::array(), ranges = OrderedJson::array();
+  for (std::size_t i = 0; i < map.segments.size(); ++i) segments.push_back(segment_json(record, map.segments[i], i));
+  for (const BranchMapEdge& edge : map.edges)
     edges.push_back({{"kind", edge.kind},
                      {"lambda", finite(edge.lambda)},
                      {"events", edge.events},
                      {"from", edge.from},
                      {"to", or_null(edge.to)}});
-  for (const AtlasRange& range : atlas.ranges)
+  for (const BranchMapRange& range : map.ranges)
     ranges.push_back({{"lambda", {finite(range.low), finite(range.high)}},
-                      {"nodes", range.nodes},
+                      {"states", range.states},
                       {"stable", range.stable},
                       {"least", or_null(range.least)}});
   return {{"deck", record.deck},
           {"version", program_version()},
-          {"nodes", std::move(nodes)},
+          {"segments", std::move(segments)},
           {"edges", std::move(edges)},
           {"ranges", std::move(ranges)}};
 }
 
-std::string atlas_section(const Record& record, const Atlas& atlas) {
-  if (atlas.nodes.empty()) return "";
-  return "<section aria-labelledby=\"atlas-title\"><h2 id=\"atlas-title\">Atlas</h2>\n<div class=\"scroll\">" +
-         picture(record, atlas) +
-         "</div>\n<p class=\"note\">A line is a smooth arc of a branch, with its contacts and, in brackets, its number "
+std::string branch_map_section(const Record& record, const BranchMap& map) {
+  if (map.segments.empty()) return "";
+  return "<section aria-labelledby=\"branch-map-title\"><h2 id=\"branch-map-title\">Branch map</h2>\n<div "
+         "class=\"scroll\">" +
+         picture(record, map) +
+         "</div>\n<p class=\"note\">A line is a smooth segment of a branch, with its contacts and, in brackets, its "
+         "number "
          "of "
          "unstable directions; where it is dashed it is unstable. Upright lines are events that lead from one arc to "
          "another, "
          "dotted ones falls.</p>\n<div class=\"scroll\"><table id=\"stable\"><thead><tr><th class=\"figure\">from "
          "λ</th><th "
          "class=\"figure\">to</th><th>stable</th><th>of these with the least energy</th></tr></thead><tbody>\n" +
-         stable_rows(atlas) + "</tbody></table></div></section>";
+         stable_rows(map) + "</tbody></table></div></section>";
 }
 
 }  // namespace arcwall
