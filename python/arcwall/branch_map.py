@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -55,12 +55,17 @@ class BranchMap(Value):
     ranges: tuple[BranchMapRange, ...]  #: by λ
 
 
+def _pair(values: Sequence[Any]) -> tuple[Any, Any]:
+    first, last = values
+    return first, last
+
+
 def branch_map_of(json: Mapping[str, Any]) -> BranchMap:
     return BranchMap(
         segments=tuple(
             BranchMapSegment(
-                one["id"], one["branch"], tuple(one["steps"]), one["contact_pattern"], tuple(one["lambda"]),
-                tuple(one["energy"]), one["unstable"], tuple(one["images"]),
+                one["id"], one["branch"], _pair(one["steps"]), one["contact_pattern"], _pair(one["lambda"]),
+                _pair(one["energy"]), one["unstable"], tuple(one["images"]),
             )
             for one in json["segments"]
         ),
@@ -68,7 +73,7 @@ def branch_map_of(json: Mapping[str, Any]) -> BranchMap:
             BranchMapEdge(one["kind"], one["lambda"], tuple(one["events"]), one["from"], one["to"]) for one in json["edges"]
         ),
         ranges=tuple(
-            BranchMapRange(tuple(one["lambda"]), tuple(one["states"]), tuple(one["stable"]), one["least"])
+            BranchMapRange(_pair(one["lambda"]), tuple(one["states"]), tuple(one["stable"]), one["least"])
             for one in json["ranges"]
         ),
     )  # fmt: skip

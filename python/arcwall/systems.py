@@ -104,8 +104,8 @@ def trace(
     depth: int = 2,
     method: str = "spherical",
     weights: Any = None,
-    least_step: float = 1e-8,
-    greatest_step: float = 0.2,
+    min_step: float = 1e-8,
+    max_step: float = 0.2,
     max_points: int = 5000,
     max_seconds: float | None = None,
 ) -> SystemPath:
@@ -119,11 +119,11 @@ def trace(
                     ``user`` and have the label as ``monitor``
     watch           unknowns whose turning points are events
     monitors        columns of the table: functions of (x, λ), called when they are asked for
-    branches        at branch points: ``primary`` stays, ``follow`` takes the branch with fewest unstable directions where the
+    branches        at branch points: ``primary`` stays, ``most-stable`` takes the branch with fewest unstable directions where the
                     one ahead is unstable, ``all`` traces every branch, to ``depth``
     method          ``spherical``, or ``load``: λ goes up by itself, and the path ends where it turns
     weights         of the squared norm of x in the path metric, shape (n,), not negative; by default 1/n
-    least_step, greatest_step   arc lengths [path metric]
+    min_step, max_step   arc lengths [path metric]
     max_points      of a branch
     max_seconds     of this call; ``path.resume()`` goes on
 
@@ -138,7 +138,7 @@ def trace(
         raise ValueError(f"x0 has shape {x.shape}; one array of finite numbers is wanted")
     start = _number("lam0", lam0)
     wishes = _engine.Wishes()
-    wishes.step, wishes.least_step, wishes.greatest_step = _steps(step, least_step, greatest_step)
+    wishes.step, wishes.least_step, wishes.greatest_step = _steps(step, min_step, max_step)
     wishes.max_points, wishes.depth = _at_least(1, "max_points", max_points), _at_least(0, "depth", depth)
     wishes.branches = _one_of("branches", branches, ("primary", "most-stable", "all"))
     wishes.method = _one_of("method", method, ("spherical", "load"))
@@ -187,10 +187,10 @@ def _mapping(name: str, given: Mapping[Any, Any] | None) -> Mapping[Any, Any]:
 
 
 def _steps(step: float, least: float, greatest: float) -> tuple[float, float, float]:
-    step, least, greatest = _number("step", step), _number("least_step", least), _number("greatest_step", greatest)
+    step, least, greatest = _number("step", step), _number("min_step", least), _number("max_step", greatest)
     if not (step != 0.0 and 0.0 < least < greatest):
         raise ValueError(
-            f"step = {step!r} must be another number than zero, and 0 < least_step = {least!r} < greatest_step = {greatest!r} hold"
+            f"step = {step!r} must be another number than zero, and 0 < min_step = {least!r} < max_step = {greatest!r} hold"
         )
     return step, least, greatest
 

@@ -207,11 +207,11 @@ def test_a_search_finds_the_other_states_of_the_closed_form(bars):
     more = {"path.search": True, "path.search_at": [1.0], "path.search_guesses": 10, "path.stop.event": "limit-point"}
     path = bars.copy(more).trace()
     (at,) = path.search
-    assert at.lam == 1.0 and at.known == 1 and sum(at.outcomes.values()) == at.tries >= 10
+    assert at.lam == 1.0 and at.known == 1 and sum(at.outcomes.values()) == at.guesses >= 10
     assert [load_at(-found.monitors["w"]) for found in at.found] == pytest.approx([1.0, 1.0], abs=1e-9)
     assert sorted(found.unstable for found in at.found) == [0, 1]
     assert all(found.became == "traced" and path.branches[found.branches[0]].disconnected for found in at.found)
-    assert not path.branches[0].found and path.branches[1].origin is None
+    assert not path.branches[0].disconnected and path.branches[1].origin is None
     assert bars.trace().search == ()
 
 

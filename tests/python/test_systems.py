@@ -407,7 +407,7 @@ def test_starts_that_are_none_are_refused():
     [
         dict(step=0.0),
         dict(step=math.nan),
-        dict(least_step=1.0, greatest_step=0.1),
+        dict(min_step=1.0, max_step=0.1),
         dict(max_points=0),
         dict(max_points=2.5),
         dict(depth=-1),
