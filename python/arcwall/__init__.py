@@ -1,13 +1,25 @@
-"""arcwall: equilibrium paths of beams, frames and trusses among rigid obstacles, and of equations of one's own.
+"""Equilibrium paths of beams, frames and trusses in contact with rigid obstacles.
 
-    import arcwall
+A `Deck` describes a structure, its loads and its walls. `Deck.trace` returns its equilibrium `Path` with
+points, events and shapes. `trace` follows the equations F(x, λ) = 0 of any other `System`.
 
-    path = arcwall.Deck.load("channel.toml").trace()
-    path.events["limit-point"][0].lam
-    path.plot(x="mid")
+Notes
+-----
+Quantities have the units of the deck, written as [length], [force] or [force·length]. λ is the load factor.
+Plane points have the axes x and z.
 
-Importing it changes nothing of the process: no signals, locale, threads or memory. Several paths may be traced at once, each
-in a thread of its own.
+Importing the package does not change signals, locale, threads or memory of the process. Several paths may be
+traced at once, each in its own thread.
+
+The examples of all docstrings assume ``import arcwall`` and a folder with the decks ``channel.toml`` and
+``truss.toml``. The command ``trace-path examples NAME --out NAME.toml`` writes such a deck.
+
+Examples
+--------
+>>> path = arcwall.Deck.load("channel.toml").trace()
+>>> limit = path.events["limit-point"][0]
+>>> round(limit.lam, 6), limit.extremum
+(6.724447, 'maximum')
 """
 
 from ._engine import version as __version__

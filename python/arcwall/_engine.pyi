@@ -1,4 +1,4 @@
-# The module that is built from python/engine: plain values, which the package makes classes of.
+# Types of the compiled module (python/engine). It is private: the package wraps its plain values in classes.
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What paths of decks and of systems have in common: columns, events and branches."""
+"""Columns, events and branches of a traced path."""
 
 from __future__ import annotations
 
@@ -21,7 +21,16 @@ C = TypeVar("C", bound="Curve")
 
 
 class Curve:
-    """Points of paths as columns: one value a point, branch after branch in the order in which they were traced."""
+    """Traced points as columns, with events and branches: the base class of `Path` and `SystemPath`.
+
+    Columns have one value for each point. Branches follow one another in the order in which they were traced.
+
+    Examples
+    --------
+    >>> path = arcwall.Deck.load("truss.toml").trace()
+    >>> len(path), path["lambda"].shape, path.columns[:5]
+    (22, (22,), ['branch', 'step', 'arc', 'lambda', 'w'])
+    """
 
     _run: Any
 
@@ -30,7 +39,7 @@ class Curve:
         self._cache: dict[Any, Any] = {}
         self._cached_size: Any = None
 
-    # What was read off the record serves until there are more points.
+    # Values read from the record are kept until the path has more points.
     def _cached(self, what: Any, make: Any) -> Any:
         size = (self._run.size(), self._run.has_ended())
         if size != self._cached_size:
@@ -40,30 +49,55 @@ class Curve:
         return self._cache[what]
 
     def __len__(self) -> int:
-        """The number of points."""
+        """Return the number of points."""
         return self._run.size()
 
     @property
     def ended(self) -> bool:
-        """Whether every branch has its end; otherwise one can go on."""
+        """True if every branch has ended; otherwise `resume` continues the path."""
         return self._run.has_ended()
 
     def resume(self: C, *, max_points: int | None = None, max_seconds: float | None = None) -> C:
-        """Goes on where the path is, to the last bit as if it had never stopped; returns the path itself.
+        """Continue the path; the result is bit-identical to an uninterrupted trace.
 
-        ``max_points`` counts those of this call. Nothing happens where every branch has ended.
+        Nothing happens if every branch has ended.
+
+        Parameters
+        ----------
+        max_points : int, optional
+            Maximum number of points that this call adds; unlimited by default.
+        max_seconds : float, optional
+            Maximum time of this call [s]; unlimited by default.
+
+        Returns
+        -------
+        Curve
+            The path itself.
+
+        Raises
+        ------
+        ValueError
+            If a limit is negative.
+
+        Examples
+        --------
+        >>> path = arcwall.Deck.load("truss.toml").trace(max_points=5)
+        >>> len(path), path.ended
+        (5, False)
+        >>> len(path.resume()), path.ended
+        (22, True)
         """
         self._run.advance(_limit_of(max_points), _seconds_of(max_seconds))
         return self
 
     @property
     def title(self) -> str:
-        """The deck's title; empty of a system."""
+        """Title of the deck; empty for a system."""
         return self._run.title()
 
     @property
     def monitors(self) -> Mapping[str, str]:
-        """The names of the monitors, with their units (empty where a deck names none)."""
+        """Names of the monitors with their units; a unit is empty if the deck gives none."""
         return dict(self._run.columns())
 
     def _monitor_column(self, name: str) -> np.ndarray | None:
@@ -71,11 +105,30 @@ class Curve:
         return self._run.monitor(names.index(name)) if name in names else None
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """A column as an array of shape (points,), which cannot be written into: the same one each time.
+        """Return a column as a read-only array of shape (points,).
 
-        ``lambda``, ``arc``, ``energy`` and the monitors are float64 in the deck's units; ``branch``, ``step``, ``contacts`` and
-        ``iterations`` int64; ``unstable`` is float64, nan where the count is open; ``stability`` and ``event`` are texts, None
-        where there is no event. KeyError for another name.
+        Parameters
+        ----------
+        name : str
+            Name of a column or monitor.
+
+        Returns
+        -------
+        numpy.ndarray
+            float64 for ``lambda``, ``arc``, ``energy``, ``unstable`` and monitors; int64 for ``branch``, ``step``,
+            ``contacts`` and ``iterations``; objects for ``stability`` and ``event``. ``unstable`` is nan if
+            undetermined; ``event`` is None without an event.
+
+        Raises
+        ------
+        KeyError
+            If there is no such column.
+
+        Examples
+        --------
+        >>> path = arcwall.Deck.load("truss.toml").trace()
+        >>> round(float(path["w"][-1]), 6)
+        1.2
         """
         if not isinstance(name, str):
             raise TypeError(f"a path is asked for columns by their names, as in path['lambda'], not for {name!r}")
@@ -97,13 +150,13 @@ class Curve:
 
     @property
     def columns(self) -> list[str]:
-        """The names of the columns of ``table``, in their order."""
+        """Names of the columns of ``table``, in their order."""
         names = self._run.column_names()
         return [*names[:4], *self.monitors, *names[4:]]
 
     @property
     def table(self) -> pd.DataFrame:
-        """All columns as a pandas DataFrame, one row a point; a new one each time, to be changed at will."""
+        """All columns as a new pandas DataFrame, one row for each point; needs pandas."""
         import pandas as pd
 
         return pd.DataFrame({name: self[name] for name in self.columns})
@@ -119,28 +172,53 @@ class Curve:
 
     @property
     def events(self) -> Events:
-        """The located points: ``path.events["limit-point"][0].lam``."""
+        """Located events, in the order of branches and points."""
         return self._cached("events", self._read_events)[0]
 
     @property
     def branches(self) -> tuple[Branch, ...]:
-        """Where each branch begins, and how it ended."""
+        """Branches with their origins and ends."""
         return self._cached("events", self._read_events)[1]
 
     # --- pictures -------------------------------------------------------------------------------------------------------
 
     def plot(self, x: str | None = None, y: str = "lambda", *, ax: Axes | None = None, events: bool = True) -> Axes:
-        """Draws column ``y`` over column ``x``, by default the first monitor, and returns the axes.
+        """Draw one column over another; needs matplotlib.
 
-        Stable parts are drawn through, unstable ones dashed, undecided ones dotted; events have the marks of ``report.html``.
-        Needs matplotlib.
+        Stable parts are solid, unstable ones dashed, undecided ones dotted.
+
+        Parameters
+        ----------
+        x, y : str, optional
+            Columns of the axes; by default the first monitor and λ.
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw into; new ones by default.
+        events : bool, default True
+            Whether to mark the events, as ``report.html`` does.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        KeyError
+            If there is no such column.
+        TypeError
+            If a column is not numeric.
+
+        Examples
+        --------
+        >>> axes = arcwall.Deck.load("truss.toml").trace().plot()
+        >>> axes.get_xlabel(), axes.get_ylabel()
+        ('w [m]', 'load factor λ')
         """
         from .pictures import plot
 
         return plot(self, x, y, ax, events)
 
     def _repr_html_(self) -> str:
-        """The curve of ``report.html``, self-contained, over the first monitor."""
+        """Return the curve of ``report.html`` over the first monitor, as a self-contained element."""
         if not len(self):
             return "<div>a path without points</div>"
         return self._run.curve(0 if self._run.columns() else None)
@@ -152,7 +230,7 @@ class Curve:
 
 
 def row_of(point: Any, size: int) -> int:
-    """A point's row from 0, of one that may count from the end. IndexError where there is none."""
+    """Return the row, from 0, of a point that may count from the end. Raises IndexError beyond the path."""
     index = operator.index(point)
     if not -size <= index < size:
         raise IndexError(f"there is no point {index}; the path has {size}")
@@ -160,7 +238,7 @@ def row_of(point: Any, size: int) -> int:
 
 
 def _limit_of(points: int | None) -> int:
-    """As many points more as one call may trace."""
+    """Return the maximum number of points that a call adds."""
     most = 2**62
     if points is None:
         return most

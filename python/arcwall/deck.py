@@ -1,4 +1,4 @@
-"""Decks: the text that says what a structure is and how its path is followed."""
+"""Decks: descriptions of a structure, its loads and walls, and of the path to trace."""
 
 from __future__ import annotations
 
@@ -18,35 +18,96 @@ __all__ = ["Deck"]
 
 
 class Deck:
-    """A deck: the text of one, and values that replace parts of it.
+    """Deck: the TOML text of a model, with values that replace parts of it.
 
-    ``Deck.load(file)`` and ``Deck.parse(text)`` take TOML, ``Deck(dict)`` what TOML would be as a dict. All lengths and
-    forces are in the deck's own consistent units. A deck with errors can be made, looked at and mended; ``check()`` lists
-    what is wrong, and what needs a right one raises DeckError. Decks can be copied and pickled, and share nothing.
+    All quantities are in the consistent units of the deck. A deck may have errors: `check` lists them, and
+    methods that need a valid deck raise `DeckError`. Decks can be compared, copied and pickled.
+
+    Parameters
+    ----------
+    content : mapping, optional
+        Content as a dict of tables, such as ``{"units": {"length": "cm"}, "material": {…}}``; empty by default.
+    name : str, default "deck.toml"
+        File name for messages and run folders.
+
+    Raises
+    ------
+    TypeError
+        If the content is not a mapping, or has types that TOML lacks.
+
+    Examples
+    --------
+    >>> deck = arcwall.Deck.load("channel.toml")
+    >>> deck["material.steel.E"], deck["path.method"]
+    (21000.0, 'spherical')
+    >>> deck["wall.upper.profile.z"] = 0.22
+    >>> deck.assignments
+    ['wall.upper.profile.z=0.22']
     """
 
     def __init__(self, content: Mapping[str, Any] | None = None, *, name: str = "deck.toml"):
-        """A deck of a dict, as ``{"units": {"length": "cm"}, "wall": [{"name": "floor", …}], …}``."""
         if content is not None and not isinstance(content, Mapping):
             raise TypeError(f"Deck() takes a dict, not {type(content).__name__}; Deck.load takes a file, Deck.parse a text")
         self._set(toml.document(content or {}), name)
 
     @classmethod
     def load(cls, file: str | os.PathLike[str]) -> Deck:
-        """The deck in a file. DeckError if there is none, or if it is no TOML."""
+        """Read a deck from a file.
+
+        Parameters
+        ----------
+        file : str or os.PathLike
+            File to read.
+
+        Returns
+        -------
+        Deck
+
+        Raises
+        ------
+        DeckError
+            If the file cannot be read or is not TOML.
+
+        Examples
+        --------
+        >>> arcwall.Deck.load("truss.toml")["title"]
+        'Two-bar truss past both peaks'
+        """
         name = os.fspath(file)
         return cls.parse(_engine.read_text_file(name), name=name)
 
     @classmethod
     def parse(cls, text: str | bytes, *, name: str = "deck.toml") -> Deck:
-        """The deck in a text; ``name`` stands for its file in messages and in run folders. DeckError if it is no TOML."""
+        """Read a deck from a text.
+
+        Parameters
+        ----------
+        text : str or bytes
+            TOML text, in UTF-8.
+        name : str, default "deck.toml"
+            File name for messages and run folders.
+
+        Returns
+        -------
+        Deck
+
+        Raises
+        ------
+        DeckError
+            If the text is not TOML.
+
+        Examples
+        --------
+        >>> arcwall.Deck.parse("material.steel.E = 2.1e4")["material.steel.E"]
+        21000.0
+        """
         if not isinstance(text, (str, bytes)):
             raise TypeError(f"Deck.parse takes a text, not {type(text).__name__}")
         deck = cls.__new__(cls)
         deck._set(text, name)
         return deck
 
-    # One whose text and assignments are known to be TOML.
+    # A deck of text and assignments that are valid TOML.
     @classmethod
     def _of(cls, text: bytes, name: str, assignments: Iterable[str]) -> Deck:
         deck = cls.__new__(cls)
@@ -61,28 +122,54 @@ class Deck:
 
     @property
     def name(self) -> str:
-        """The file it came from, or what stands for it."""
+        """File name of the deck."""
         return self._name
 
     @property
     def assignments(self) -> list[str]:
-        """What was set since the text was read, as ``--set`` of the program takes it."""
+        """Values set since the text was read, in the form of the option ``--set``."""
         return list(self._assignments)
 
     # --- values ---------------------------------------------------------------------------------------------------------
 
     def __getitem__(self, key: str) -> Any:
-        """A value by its dotted key, as ``deck["wall.upper.profile.z"]`` or ``deck["load.0.force"]``.
+        """Return the value of a key, or its default.
 
-        Elements of arrays count from 0 or go by their name. What the deck leaves out has its default. A table is a copy, as
-        a dict. KeyError, with the nearest key that there is, for one that is not.
+        Parameters
+        ----------
+        key : str
+            Dotted key, such as ``wall.upper.profile.z`` or ``load.0.force``. An element of an array has its number
+            from 0, or its name.
+
+        Returns
+        -------
+        object
+            Number, text, list, or a copy of a table as a dict.
+
+        Raises
+        ------
+        KeyError
+            If there is no such key; the message has the nearest one.
         """
         return _engine.value(self._text, self._name, self._assignments, _checked_key(key))
 
     def __setitem__(self, key: str, value: Any) -> None:
-        """Replaces or adds a value; lists and dicts are what they are in TOML. DeckError where the key leads nowhere."""
+        """Replace or add a value.
+
+        Parameters
+        ----------
+        key : str
+            Dotted key.
+        value : object
+            Number, text, list or dict, as in TOML.
+
+        Raises
+        ------
+        DeckError
+            If the key cannot be set.
+        """
         assignment = f"{_checked_key(key)}={toml.value(value)}"
-        # What was set for this key before is of no account, unless other keys that were set lie inside of it.
+        # Earlier assignments of this key are dropped, unless later assignments need them.
         others = [one for one in self._assignments if not one.startswith(f"{key}=")]
         for before in (others, self._assignments):
             assignments = [*before, assignment]
@@ -104,7 +191,25 @@ class Deck:
     __iter__ = None  # type: ignore[assignment]
 
     def update(self, values: Mapping[str, Any]) -> None:
-        """Sets several values, in their order: all of them, or none where one cannot be set."""
+        """Set several values, in their order: either all or none.
+
+        Parameters
+        ----------
+        values : mapping
+            Values by their dotted keys.
+
+        Raises
+        ------
+        DeckError
+            If a key cannot be set; the deck is then unchanged.
+
+        Examples
+        --------
+        >>> deck = arcwall.Deck.load("truss.toml")
+        >>> deck.update({"material.bar.E": 2e5, "path.step": 2.0})
+        >>> deck["path.step"]
+        2.0
+        """
         before = self._assignments
         try:
             for key, value in values.items():
@@ -114,17 +219,48 @@ class Deck:
             raise
 
     def copy(self, values: Mapping[str, Any] | None = None) -> Deck:
-        """Another deck of the same content, with other values: ``deck.copy({"material.steel.E": 2.0e4})``."""
+        """Return a copy of the deck, with some values replaced.
+
+        Parameters
+        ----------
+        values : mapping, optional
+            Values by their dotted keys.
+
+        Returns
+        -------
+        Deck
+
+        Raises
+        ------
+        DeckError
+            If a key cannot be set.
+
+        Examples
+        --------
+        >>> stiff = arcwall.Deck.load("truss.toml").copy({"material.bar.E": 2e5})
+        >>> round(stiff.trace().events["limit-point"][0].lam, 6)
+        75.839603
+        """
         deck = self._of(self._text, self._name, self._assignments)
         deck.update(values or {})
         return deck
 
     def to_dict(self) -> dict[str, Any]:
-        """What the deck says, without what it leaves to defaults, as a dict of which ``Deck(…)`` makes the same."""
+        """Return the content without defaults; ``Deck(deck.to_dict())`` is an equal deck.
+
+        Returns
+        -------
+        dict
+
+        Examples
+        --------
+        >>> arcwall.Deck.load("truss.toml").to_dict()["units"]
+        {'length': 'm', 'force': 'kN'}
+        """
         return _engine.document(self._text, self._name, self._assignments)
 
     def __str__(self) -> str:
-        """The deck as TOML in which every default stands, which is what a run folder has as ``deck.toml``."""
+        """Return the deck as TOML with all defaults, like ``deck.toml`` of a run folder."""
         return _engine.written(self._text, self._name, self._assignments)
 
     def __repr__(self) -> str:
@@ -132,7 +268,7 @@ class Deck:
         return f"<arcwall.Deck {self._name}{sets}>"
 
     def __eq__(self, other: object) -> bool:
-        """Whether two decks, which are right, say the same."""
+        """Return True if two valid decks have the same content, defaults included."""
         if not isinstance(other, Deck):
             return NotImplemented
         return str(self) == str(other)
@@ -142,19 +278,62 @@ class Deck:
     # --- runs -----------------------------------------------------------------------------------------------------------
 
     def check(self) -> list[Diagnostic]:
-        """All that is wrong with the deck, in the order of the text; empty if it can be traced."""
+        """List all errors of the deck, in the order of its text.
+
+        Returns
+        -------
+        list of Diagnostic
+            Empty if the deck is valid.
+
+        Examples
+        --------
+        >>> wrong = arcwall.Deck.load("truss.toml").copy({"path.method": "spherica"})
+        >>> [(error.key, error.cure) for error in wrong.check()]
+        [('path.method', 'did you mean spherical?')]
+        """
         return _engine.check(self._text, self._name, self._assignments)[0]
 
     def warnings(self) -> list[str]:
-        """What one should know of a right deck though it is no error: one sentence each."""
+        """List the warnings about the deck.
+
+        Returns
+        -------
+        list of str
+            One sentence each; empty for a deck with errors.
+
+        Examples
+        --------
+        >>> arcwall.Deck.load("truss.toml").warnings()
+        []
+        """
         return _engine.check(self._text, self._name, self._assignments)[1]
 
     def tracing(self, *, sensitivity: Iterable[str] | None = None, jumps: bool | None = None) -> Tracing:
-        """Traces while it is iterated, a point at a time: ``for point in deck.tracing(): …``.
+        """Return an iterator that traces the deck point by point.
 
-        One may stop at any time and go on later; ``tracing.path`` has what was traced so far. DeckError for a wrong deck.
-        ``sensitivity``: numbers of the deck by which each event's λ is derived; ``jumps``: whether it is found where the
-        structure falls to, when every branch has ended. Both stand in place of what the deck says (docs/answers.md).
+        ``tracing.path`` is the path traced so far. A program may stop at any point and continue later.
+
+        Parameters
+        ----------
+        sensitivity : iterable of str, optional
+            Keys of the parameters n for dλ/dn of each event; by default ``path.sensitivity`` of the deck.
+        jumps : bool, optional
+            Whether to determine jumps after each loss of stability; by default ``path.jumps`` of the deck.
+
+        Returns
+        -------
+        Tracing
+
+        Raises
+        ------
+        DeckError
+            If the deck has errors.
+
+        Examples
+        --------
+        >>> tracing = arcwall.Deck.load("truss.toml").tracing()
+        >>> [point.index for point in tracing][-1], tracing.path.ended
+        (21, True)
         """
         from .path import Path, Tracing
 
@@ -170,11 +349,37 @@ class Deck:
         sensitivity: Iterable[str] | None = None,
         jumps: bool | None = None,
     ) -> Path:
-        """Traces all paths of the deck, as ``trace-path run`` does, to the same last bit.
+        """Trace all branches of the deck; the result is bit-identical to that of ``trace-path run``.
 
-        ``max_points`` and ``max_seconds`` end this call; ``path.resume()`` goes on. DeckError for a wrong deck, NoStart where
-        there is no equilibrium to begin with. ``sensitivity`` and ``jumps`` are as of ``tracing()``. Ctrl-C raises
-        KeyboardInterrupt at the next point; what was traced by then is kept only by ``tracing()``.
+        Ctrl-C raises KeyboardInterrupt at the next point. Use `tracing` to keep the points traced by then.
+
+        Parameters
+        ----------
+        max_points : int, optional
+            Maximum number of points of this call; unlimited by default. `Path.resume` continues.
+        max_seconds : float, optional
+            Maximum time of this call [s]; unlimited by default.
+        sensitivity : iterable of str, optional
+            Keys of the parameters n for dλ/dn of each event; by default ``path.sensitivity`` of the deck.
+        jumps : bool, optional
+            Whether to determine jumps after each loss of stability; by default ``path.jumps`` of the deck.
+
+        Returns
+        -------
+        Path
+
+        Raises
+        ------
+        DeckError
+            If the deck has errors.
+        NoStart
+            If no equilibrium was found at the start.
+
+        Examples
+        --------
+        >>> path = arcwall.Deck.load("truss.toml").trace(sensitivity=["material.bar.E"])
+        >>> round(path.events["limit-point"][0].sensitivity["material.bar.E"] * 1e5, 6)
+        37.919801
         """
         path = self.tracing(sensitivity=sensitivity, jumps=jumps).path
         path.resume(max_points=max_points, max_seconds=max_seconds)
@@ -183,8 +388,32 @@ class Deck:
     # --- answers --------------------------------------------------------------------------------------------------------
 
     def converge(self, *, levels: int = 3, factor: int = 2) -> Convergence:
-        """Traces the deck on ``levels`` meshes, each ``factor`` times finer than the one before, and says how sure its events
-        are, as ``trace-path converge`` does."""
+        """Estimate the mesh errors of the events on several meshes, like ``trace-path converge``.
+
+        Parameters
+        ----------
+        levels : int, default 3
+            Number of meshes, 2 to 8.
+        factor : int, default 2
+            Refinement from mesh to mesh, 2 to 10.
+
+        Returns
+        -------
+        Convergence
+
+        Raises
+        ------
+        DeckError
+            If the deck has errors.
+        ValueError
+            If ``levels`` or ``factor`` is out of range.
+
+        Examples
+        --------
+        >>> study = arcwall.Deck.load("channel.toml").copy({"member.column.elements": 20}).converge(levels=2)
+        >>> [event.kind for event in study.events][:3]
+        ['contact-closes', 'contact-splits', 'limit-point']
+        """
         from .studies import Convergence
 
         for name, number, most in (("levels", levels, 8), ("factor", factor, 10)):
@@ -203,17 +432,45 @@ class Deck:
         max_points: int | None = None,
         output_at: Sequence[float] | None = None,
     ) -> EventCurve:
-        """Follows an event while a number of the deck varies, as ``trace-path curve`` does (docs/answers.md): exactly, to both
-        sides of the deck's own value and through its turning points.
+        """Follow an event while a parameter of the deck varies, like ``trace-path curve``.
 
-        event, number   kind of the event, as ``limit-point``, and which of that kind along the path, from 1
-        parameter, range  the number by its key, and (least, greatest) value, the deck's own inside
-        step            increment of the number of the first predictor; by default 1/100 of the range
-        max_points      on each side of the deck's own value
-        output_at       values of the number each of which is a point
+        The curve extends to both sides of the deck's own value and passes its turning points. The deck's table
+        ``[curve]`` supplies omitted arguments.
 
-        What is left out is taken from the deck's table ``[curve]``, if it has one. DeckError for a wrong deck or question,
-        NoAnswer where the event is not on the path or cannot be followed.
+        Parameters
+        ----------
+        event : str, optional
+            Kind of the event, such as ``limit-point``.
+        parameter : str, optional
+            Key of the parameter, such as ``wall.upper.profile.z``.
+        range : sequence of float, optional
+            Minimum and maximum of the parameter; the deck's own value is between them.
+        number : int, optional
+            Number of the event among those of its kind, from 1; 1 by default.
+        step : float, optional
+            Increment of the parameter in the first predictor; by default 1/100 of the range.
+        max_points : int, optional
+            Maximum number of points on each side of the deck's own value.
+        output_at : sequence of float, optional
+            Values of the parameter at which to output exact points.
+
+        Returns
+        -------
+        EventCurve
+
+        Raises
+        ------
+        DeckError
+            If the deck has errors or the arguments do not fit it.
+        NoAnswer
+            If the event is not on the path or cannot be followed.
+
+        Examples
+        --------
+        >>> truss = arcwall.Deck.load("truss.toml")
+        >>> curve = truss.curve("limit-point", "material.bar.E", (9.9e4, 1.01e5))
+        >>> [round(float(load), 6) for load in curve["lambda"][[0, -1]]]
+        [37.540603, 38.298999]
         """
         from .event_curves import EventCurve
 
@@ -229,11 +486,37 @@ class Deck:
         *,
         number: int | None = None,
     ) -> WorstCombination:
-        """The combination of numbers that lowers an event most: of all changes of the numbers ``keys`` with the root of the sum
-        of their squares equal to ``radius`` (docs/answers.md).
+        """Find the change of parameters, of a given norm, that lowers the λ of an event most.
 
-        What is left out is taken from the deck's table ``[curve]``, if it has one. DeckError for a wrong deck or question,
-        NoAnswer where the event is not on the path, or its λ has no slope by these numbers.
+        The deck's table ``[curve]`` supplies omitted arguments.
+
+        Parameters
+        ----------
+        event : str, optional
+            Kind of the event, such as ``limit-point``.
+        keys : iterable of str, optional
+            Keys of the parameters.
+        radius : float, optional
+            Euclidean norm of the change of the parameters, in their units.
+        number : int, optional
+            Number of the event among those of its kind, from 1; 1 by default.
+
+        Returns
+        -------
+        WorstCombination
+
+        Raises
+        ------
+        DeckError
+            If the deck has errors or the arguments do not fit it.
+        NoAnswer
+            If the event is not on the path, or its λ has no derivative with respect to a parameter.
+
+        Examples
+        --------
+        >>> worst = arcwall.Deck.load("truss.toml").worst("limit-point", ["material.bar.E"], 1000.0)
+        >>> round(worst.values["material.bar.E"], 3), round(worst.lam, 6)
+        (99000.0, 37.540603)
         """
         from .event_curves import worst_of
 
@@ -241,14 +524,14 @@ class Deck:
         deck = self._asking(event, number, wanted, {"parameter", "range", "step", "max_points", "output_at"})
         return worst_of(deck, *_engine.worst(deck._name, deck._text, deck._assignments))
 
-    # The deck with what is wanted in place of that in its table [curve], without what belongs to another question.
+    # The deck with the given arguments in its table [curve], without the keys of other analyses.
     def _asking(self, event: str | None, number: int | None, wanted: Mapping[str, Any], others: set[str]) -> Deck:
         given = {key: value for key, value in wanted.items() if value is not None}
         if event is None and number is None and not given:
             return self
         own = self.to_dict().get("curve", {})
         kept = {key: value for key, value in own.items() if key not in others} if isinstance(own, dict) else {}
-        if given.get("parameter", kept.get("parameter")) != kept.get("parameter"):  # these are of the other number
+        if given.get("parameter", kept.get("parameter")) != kept.get("parameter"):  # these belong to the other parameter
             kept = {key: value for key, value in kept.items() if key not in ("range", "step", "output_at")}
         if event is not None:
             kept["event"] = {"kind": event}

@@ -1,4 +1,4 @@
-"""What becomes of an event while numbers of the deck vary: curves in two parameters, and the worst combination."""
+"""Events while parameters of the deck vary: event curves and worst combinations."""
 
 from __future__ import annotations
 
@@ -25,34 +25,51 @@ __all__ = ["CurveSpecial", "EventCurve", "WorstCombination"]
 
 @dataclass(frozen=True, repr=False)
 class CurveSpecial(Value):
-    """Something that happens on a curve of events."""
+    """Special point of an event curve.
 
-    kind: str  #: ``begins``, ``ends``, ``cusp``: the number turns, or ``crossing``: another event is met
-    point: int  #: row of ``curve.table``
-    key: float  #: the number of the deck there
-    lam: float  #: λ of the event there
-    monitors: Mapping[str, float]
-    why: str  #: in words
-    reason: str | None = None  #: of ``begins`` and ``ends``, as of the end of a branch: ``stop``, ``min_step``, …
+    Examples
+    --------
+    >>> truss = arcwall.Deck.load("truss.toml")
+    >>> curve = truss.curve("limit-point", "material.bar.E", (9.9e4, 1.01e5))
+    >>> [(special.kind, special.key, special.reason) for special in curve.specials]
+    [('begins', 99000.0, 'stop'), ('ends', 101000.0, 'stop')]
+    """
+
+    kind: str  #: ``begins``, ``ends``, ``cusp`` (turning point of the parameter) or ``crossing`` (with another event)
+    point: int  #: row of the point in ``curve.table``
+    key: float  #: value of the parameter
+    lam: float  #: λ of the event
+    monitors: Mapping[str, float]  #: monitors, by name
+    why: str  #: explanation
+    reason: str | None = None  #: reason of ``begins`` and ``ends``: ``stop``, ``min_step``, …
 
 
 class EventCurve:
-    """An event of a deck, followed while a number of the deck varies; made by ``deck.curve()``.
+    """Curve of an event while a parameter of the deck varies; returned by `Deck.curve`.
 
-    Each point is the event of the deck with another value of the number. Columns are arrays of shape (points,) in the order
-    of the curve, from its low end through the deck's own value to its high one; they cannot be written into. A curve can be
-    pickled and copied.
+    Each point is the event of the deck with another value of the parameter. Columns are read-only arrays of shape
+    (points,), from the low end of the curve to its high end. A curve can be copied and pickled.
+
+    Examples
+    --------
+    >>> spring = {"spring": [{"at": "top", "stiffness": {"z": 190.0}}]}
+    >>> truss = arcwall.Deck.load("truss.toml").copy(spring)
+    >>> curve = truss.curve("limit-point", "spring.0.stiffness.z", (180.0, 220.0))
+    >>> cusp = curve.cusps[0]
+    >>> round(cusp.key, 4), round(cusp.lam, 4)
+    (197.0371, 98.5185)
     """
 
     def __init__(
         self, deck: Deck, json: Mapping[str, Any], columns: Any, shapes: Any, files: Mapping[str, str], text: str, picture: str
     ):
-        self.deck = deck  #: with the question that this answers as its table ``[curve]``
-        self.event: str = json["event"]["kind"]  #: kind of the event that is followed
-        self.number: int = json["event"]["number"]  #: which of that kind along the path, from 1
-        self.parameter: str = json["parameter"]  #: the number that varies, by its key
-        self.unit: str = json["unit"]  #: of that number; empty where it has none
-        self.value: float = json["value"]  #: the deck's own
+        self.deck = deck  #: deck, with the arguments of the curve as its table ``[curve]``
+        self.event: str = json["event"]["kind"]  #: kind of the event
+        self.number: int = json["event"]["number"]  #: number among the events of its kind, from 1
+        self.parameter: str = json["parameter"]  #: key of the parameter
+        self.unit: str = json["unit"]  #: unit of the parameter; may be empty
+        self.value: float = json["value"]  #: the deck's own value of the parameter
+        #: begin, end, cusps and crossings, in the order of the curve
         self.specials = tuple(
             CurveSpecial(
                 kind=one["kind"],
@@ -66,26 +83,44 @@ class EventCurve:
             for one in json["specials"]
         )
         self._columns: dict[str, np.ndarray] = {}
-        self.units: dict[str, str] = {}  #: of the columns; empty where one has none
+        self.units: dict[str, str] = {}  #: units of the columns; may be empty
         for name, unit, values in columns:
             values.setflags(write=False)
             self._columns[name], self.units[name] = values, unit
         self._shapes, self._files, self._text, self._picture = shapes, dict(files), text, picture
 
     def __len__(self) -> int:
-        """The number of points."""
+        """Return the number of points."""
         return len(self["lambda"])
 
     @property
     def columns(self) -> list[str]:
-        """The names of the columns: ``arc``, ``key``, ``lambda``, the monitors, ``slope``, ``unstable_before``,
-        ``unstable_after`` and ``contacts``."""
+        """Names of the columns.
+
+        These are ``arc``, ``key``, ``lambda``, the monitors, ``slope``, ``unstable_before``, ``unstable_after`` and
+        ``contacts``.
+        """
         return list(self._columns)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """A column, shape (points,), float64 but for ``contacts``: ``key`` is the number of the deck, ``slope`` dλ/dkey, nan at a
-        cusp; ``unstable_before`` and ``unstable_after`` count on both sides of the event along the path, nan where that is open.
-        KeyError for another name."""
+        """Return a column as a read-only array of shape (points,).
+
+        Parameters
+        ----------
+        name : str
+            ``key`` is the parameter and ``slope`` is dλ/dkey, nan at a cusp. ``unstable_before`` and
+            ``unstable_after`` are the numbers of unstable directions on the path, nan if undetermined.
+
+        Returns
+        -------
+        numpy.ndarray
+            float64, except for ``contacts`` (int64).
+
+        Raises
+        ------
+        KeyError
+            If there is no such column.
+        """
         try:
             return self._columns[name]
         except KeyError:
@@ -95,7 +130,7 @@ class EventCurve:
 
     @property
     def table(self) -> pd.DataFrame:
-        """All columns as a pandas DataFrame, one row a point; a new one each time."""
+        """All columns as a new pandas DataFrame, one row for each point; needs pandas."""
         import pandas as pd
 
         return pd.DataFrame(self._columns)
@@ -105,45 +140,115 @@ class EventCurve:
 
     @property
     def cusps(self) -> tuple[CurveSpecial, ...]:
-        """Where the number turns: beyond that value there is no such event, and on this side there are two."""
+        """Turning points of the parameter, at which two events merge."""
         return self._of_kind("cusp")
 
     @property
     def crossings(self) -> tuple[CurveSpecial, ...]:
-        """Where another event is met at the same λ."""
+        """Points at which another event occurs at the same λ."""
         return self._of_kind("crossing")
 
     @property
     def ends(self) -> tuple[CurveSpecial, ...]:
-        """The two ends, with the reason for which the curve was followed no farther."""
+        """Both ends, with their reasons."""
         return self._of_kind("begins", "ends")
 
     def deck_at(self, point: int) -> Deck:
-        """The deck with the number's value at a point: ``curve.deck_at(i).trace()`` has the event at the same λ."""
+        """Return the deck with the parameter's value at a point.
+
+        Parameters
+        ----------
+        point : int
+            Row in ``table``; a negative one counts from the end.
+
+        Returns
+        -------
+        Deck
+
+        Raises
+        ------
+        IndexError
+            If there is no such point.
+
+        Examples
+        --------
+        >>> truss = arcwall.Deck.load("truss.toml")
+        >>> curve = truss.curve("limit-point", "material.bar.E", (9.9e4, 1.01e5))
+        >>> curve.deck_at(-1)["material.bar.E"]
+        101000.0
+        """
         return self.deck.copy({self.parameter: float(self["key"][row_of(point, len(self))])})
 
     def shape(self, point: int) -> Shape:
-        """The structure at a point of the curve, at the event."""
+        """Return the deformed structure of the event at a point.
+
+        Parameters
+        ----------
+        point : int
+            Row in ``table``; a negative one counts from the end.
+
+        Returns
+        -------
+        Shape
+
+        Raises
+        ------
+        IndexError
+            If there is no such point.
+        """
         index = row_of(point, len(self))
         deck, lam = self.deck_at(index), float(self["lambda"][index])
         members, contacts = self._shapes[index]
         return shape_of(members, contacts, _engine.walls(deck._name, deck._text, deck._assignments, lam), lam)
 
     def plot(self, x: str = "key", y: str = "lambda", *, ax: Axes | None = None) -> Axes:
-        """Draws column ``y`` over column ``x`` and returns the axes: through where the path is stable on one side of the event,
-        dashed where it is on neither, dotted where that is open; specials are marked. Needs matplotlib."""
+        """Draw one column over another, with marks at special points; needs matplotlib.
+
+        Lines are solid if the path is stable on one side of the event, dashed if on neither, dotted if undetermined.
+
+        Parameters
+        ----------
+        x, y : str, optional
+            Columns of the axes; by default the parameter and λ.
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw into; new ones by default.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        KeyError
+            If there is no such column.
+        """
         from .pictures import plot_event_curve
 
         return plot_event_curve(self, x, y, ax)
 
     def report(self) -> str:
-        """``report.html`` of ``trace-path curve`` as a text."""
+        """Return ``report.html`` of ``trace-path curve``.
+
+        Returns
+        -------
+        str
+        """
         return self._files["report.html"]
 
     def save(self, folder: str | os.PathLike[str], *, force: bool = False) -> None:
-        """Writes the files of ``trace-path curve``: curve.csv, curve.json and report.html.
+        """Write the files of ``trace-path curve``: curve.csv, curve.json and report.html.
 
-        ``force``: also into a folder that something else filled, as a run. FileError where they cannot be written.
+        Parameters
+        ----------
+        folder : str or os.PathLike
+            Folder to write into.
+        force : bool, default False
+            Whether to write into a folder with other files.
+
+        Raises
+        ------
+        FileError
+            If the folder cannot be written or has other files.
         """
         _engine.write_curve(os.fspath(folder), os.path.basename(self.deck.name), force, list(self._files.items()))
 
@@ -151,7 +256,7 @@ class EventCurve:
         return self._picture
 
     def __str__(self) -> str:
-        """The specials as a table."""
+        """Return the special points as a table."""
         return self._text
 
     def __repr__(self) -> str:
@@ -161,27 +266,38 @@ class EventCurve:
 
 @dataclass(frozen=True)
 class WorstCombination:
-    """The change of some numbers of a deck, of a given norm, that lowers an event most; made by ``deck.worst()``."""
+    """Change of parameters, of a given norm, that lowers the λ of an event most; returned by `Deck.worst`.
+
+    ``print(worst)`` shows the table of ``trace-path curve``.
+
+    Examples
+    --------
+    >>> worst = arcwall.Deck.load("truss.toml").worst("limit-point", ["material.bar.E"], 1000.0)
+    >>> worst.own, worst.settled
+    ({'material.bar.E': 100000.0}, True)
+    >>> round(worst.own_lam, 6), round(worst.lam, 6)
+    (37.919801, 37.540603)
+    """
 
     event: str  #: kind of the event
-    number: int  #: which of that kind along the path, from 1
-    radius: float  #: root of the sum of squares of the change
-    own_lam: float  #: λ of the event of the deck
-    lam: float  #: with the worst values
-    own: Mapping[str, float]  #: the deck's values, by their keys
-    values: Mapping[str, float]  #: the worst ones
-    slopes: Mapping[str, float]  #: dλ/dvalue there
-    settled: bool  #: the change points against the slopes, as it does at the lowest
-    runs: int  #: of decks
-    deck: Deck = field(repr=False)  #: with the worst values
-    text: str = field(repr=False)  #: the program's table
+    number: int  #: number among the events of its kind, from 1
+    radius: float  #: Euclidean norm of the change, in the units of the parameters
+    own_lam: float  #: λ of the event with the deck's own values
+    lam: float  #: λ of the event with the worst values
+    own: Mapping[str, float]  #: the deck's own values, by key
+    values: Mapping[str, float]  #: worst values, by key
+    slopes: Mapping[str, float]  #: dλ/dvalue at the worst values, by key
+    settled: bool  #: True if the search converged: the change is opposite to the slopes
+    runs: int  #: number of decks traced
+    deck: Deck = field(repr=False)  #: deck with the worst values
+    text: str = field(repr=False)  #: table of ``trace-path curve``
 
     def __str__(self) -> str:
         return self.text
 
 
 def worst_of(deck: Deck, json: Mapping[str, Any], text: str) -> WorstCombination:
-    """That of ``curve.json``; ``deck`` is the one that was asked."""
+    """Read the worst combination of ``curve.json`` for a deck."""
     values = {one["key"]: one["value"] for one in json["worst"]}
     return WorstCombination(
         event=json["event"]["kind"],

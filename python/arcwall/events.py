@@ -1,4 +1,4 @@
-"""Located points of a path, its branches and its points, as values."""
+"""Events, branches and points of a path, as values."""
 
 from __future__ import annotations
 
@@ -21,181 +21,294 @@ __all__ = [
 
 @dataclass(frozen=True, repr=False)
 class Contact(Value):
-    """A place of the structure on a wall."""
+    """Contact of the structure with a wall, at a point of a path or in an event.
 
-    wall: str
-    member: str
-    fraction: float  #: of the member's length; nan where it is unknown
-    x: float  #: present place [length]
-    force: float | None = None  #: of the wall, along its normal [force]; None where a contact changes
-    pressure: float | None = None  #: [force/length]; None for a point force
+    Examples
+    --------
+    >>> path = arcwall.Deck.load("channel.toml").trace()
+    >>> [(contact.wall, round(contact.force, 3)) for contact in path.points[-1].contacts]
+    [('upper', 6.896), ('lower', 6.893), ('upper', 6.896)]
+    """
+
+    wall: str  #: name of the wall
+    member: str  #: name of the member
+    fraction: float  #: fraction of the member's length, 0 to 1; nan if unknown
+    x: float  #: current coordinate x [length]
+    force: float | None = None  #: force along the wall's normal [force]; None in events
+    pressure: float | None = None  #: contact pressure [force/length]; None for a point force
 
 
 @dataclass(frozen=True, repr=False)
 class Continuum(Value):
-    """A continuum of equilibria with one load and energy, of which the path keeps to one or at which it ends."""
+    """One-parameter family of equilibria with the same λ and energy.
 
-    parts: int  #: flat parts on walls, new ones being points yet
-    energy: float  #: total potential [force·length]
-    length: float  #: sum of the lengths of the parts [length]
+    Only the total length of several contact zones is determined, not the length of each.
+
+    Examples
+    --------
+    >>> perfect = {"member.column.imperfection": [], "path.stop.lambda": [-1.0, 20.0]}
+    >>> deck = arcwall.Deck.load("channel.toml").copy({**perfect, "path.equilibrium_family": "stop"})
+    >>> end = deck.trace().branches[-1].end
+    >>> end.reason, end.family.parts
+    ('equilibrium_family', 3)
+    """
+
+    parts: int  #: number of contact zones; a new one has length 0
+    energy: float  #: total potential energy [force·length]
+    length: float  #: total length of the zones [length]
 
 
 @dataclass(frozen=True, repr=False)
 class End(Value):
-    """Why a branch ended."""
+    """End of a branch, with its reason.
+
+    Examples
+    --------
+    >>> arcwall.Deck.load("truss.toml").trace().branches[0].end
+    End(reason='stop', detail='w = 1.2')
+    """
 
     reason: str  #: ``stop``, ``closed_loop``, ``max_points``, ``min_step``, …
-    detail: str  #: which bound it was; what to try
-    partner: int | None = None  #: the branch that it joined or that goes on
-    family: Continuum | None = None  #: that lies ahead
+    detail: str  #: bound that was reached, or position and cause of an early end
+    partner: int | None = None  #: id of the branch that was reached, or on which the path continues
+    family: Continuum | None = None  #: family of equilibria beyond the end
 
 
 @dataclass(frozen=True, repr=False)
 class JumpContact(Value):
-    """A contact point or a contact zone of a state that a structure jumps to."""
+    """Contact point or contact zone of the state after a jump.
 
-    wall: str
-    member: str
-    fraction: float  #: of the member's length, where it begins; nan where it is unknown
+    Examples
+    --------
+    >>> jump = arcwall.Deck.load("channel.toml").trace().events["limit-point"][0].jump
+    >>> [(contact.wall, contact.kind) for contact in jump.contacts]
+    [('upper', 'point'), ('lower', 'point'), ('upper', 'point')]
+    """
+
+    wall: str  #: name of the wall
+    member: str  #: name of the member
+    fraction: float  #: fraction of the member's length at which it begins, 0 to 1; nan if unknown
     kind: str  #: ``point`` or ``zone``
-    force: float  #: in sum [force]
+    force: float  #: total contact force [force]
 
 
 @dataclass(frozen=True, repr=False)
 class Jump(Value):
-    """The jump of a structure at constant λ from an event at which it loses its stability.
+    """Jump of the structure at constant λ from an event at which it loses stability.
 
-    ``reason`` says why that was not found, and then all but ``lam`` and ``why`` is None or empty.
+    If the state after the jump was not determined, ``reason`` and ``why`` explain it. All other fields
+    except ``lam`` and ``two_destinations`` are then None or empty.
+
+    Examples
+    --------
+    >>> jump = arcwall.Deck.load("channel.toml").trace().events["limit-point"][0].jump
+    >>> jump.contact_pattern, round(jump.energy_released, 5), round(jump.return_.lam, 6)
+    ('upper lower upper', 0.42178, 4.246891)
     """
 
-    lam: float  #: λ, that of the event
+    lam: float  #: λ of the event
     reason: str | None = None  #: None, ``no_equilibrium``, ``not_found`` or ``two_destinations``
-    why: str | None = None  #: the reason in words
-    monitors: Mapping[str, float] = field(default_factory=dict)
-    contacts: tuple[JumpContact, ...] = ()  #: along the members
-    contact_pattern: str = ""  #: the walls of these, as ``upper lower upper``; ``upper=`` of a stretch
-    energy: float | None = None  #: total potential there [force·length]
-    energy_released: float | None = None  #: energy before less energy behind [force·length]
-    unstable: int | None = None  #: as of points
-    on_branch: int | None = None  #: the branch that passes through the state, if one does
-    arc: float | None = None  #: along it [path metric]
-    return_: Return | None = None  #: the jump back as λ goes back; None: no loss of stability is known
-    energy_dissipated: float | None = None  #: in the hysteresis loop, if that closes [force·length]
-    two_destinations: tuple[Jump, ...] = ()  #: of this reason: in one sense of the critical mode and in the other
+    why: str | None = None  #: explanation of the reason
+    monitors: Mapping[str, float] = field(default_factory=dict)  #: monitors of the state after the jump, by name
+    contacts: tuple[JumpContact, ...] = ()  #: contacts of that state, along the members
+    contact_pattern: str = ""  #: walls of these contacts, such as ``upper lower upper``; ``upper=`` is a contact zone
+    energy: float | None = None  #: total potential energy of that state [force·length]
+    energy_released: float | None = None  #: energy before the jump minus energy after it [force·length]
+    unstable: int | None = None  #: number of unstable directions of that state; None if undetermined
+    on_branch: int | None = None  #: id of the traced branch through that state; None if there is none
+    arc: float | None = None  #: arc length of that state along the branch [path metric]
+    return_: Return | None = None  #: loss of stability as λ is reversed; None if none is known
+    energy_dissipated: float | None = None  #: energy dissipated per hysteresis loop, if it closes [force·length]
+    two_destinations: tuple[Jump, ...] = ()  #: one jump for each sign of the critical mode, for the reason of this name
 
 
 @dataclass(frozen=True, repr=False)
 class Return(Value):
-    """Where the state after a jump loses its stability as λ goes back."""
+    """Loss of stability after a jump, as λ is reversed.
 
-    lam: float
-    kind: str  #: of the event
-    monitors: Mapping[str, float]
-    jump: Jump | None = None  #: the jump from there
+    Examples
+    --------
+    >>> back = arcwall.Deck.load("truss.toml").trace().events["limit-point"][0].jump.return_
+    >>> round(back.lam, 6), back.kind, round(back.jump.monitors["w"], 6)
+    (-37.919801, 'limit-point', -0.07735)
+    """
+
+    lam: float  #: λ of the event
+    kind: str  #: kind of the event
+    monitors: Mapping[str, float]  #: monitors at the event, by name
+    jump: Jump | None = None  #: jump from the event
 
 
 @dataclass(frozen=True, repr=False)
 class Found(Value):
-    """An equilibrium that no traced branch passed when it was found."""
+    """Equilibrium found by a search, on no branch that was traced before.
 
-    contact_pattern: str  #: as of a jump
-    monitors: Mapping[str, float]
-    energy: float  #: total potential [force·length]
-    unstable: int | None  #: as of points
+    Examples
+    --------
+    >>> search = {"search": True, "search_at": [10.0], "search_guesses": 5}
+    >>> deck = arcwall.Deck.load("truss.toml").copy({f"path.{key}": value for key, value in search.items()})
+    >>> path = deck.copy({"path.stop.event": "limit-point"}).trace()
+    >>> [(found.unstable, found.became) for found in path.search[0].found]
+    [(0, 'traced'), (1, 'traced')]
+    """
+
+    contact_pattern: str  #: walls in contact along the members, such as ``upper lower upper``
+    monitors: Mapping[str, float]  #: monitors, by name
+    energy: float  #: total potential energy [force·length]
+    unstable: int | None  #: number of unstable directions; None if undetermined
     became: str  #: ``traced``, ``on_branch``, ``beyond_stop``, ``not_traced`` or ``pending``
-    branches: tuple[int, ...]  #: that begin there, or the one that passes it
+    branches: tuple[int, ...]  #: ids of the branches that start there, or of the one through it
 
 
 @dataclass(frozen=True, repr=False)
 class Search(Value):
-    """What was looked for beside the traced branches at one λ. What was not found may be there all the same."""
+    """Search at one λ for equilibria on disconnected branches.
 
-    lam: float
-    known: int  #: equilibria of traced branches
-    guesses: int
-    outcomes: Mapping[str, int]  #: how many guesses ended how: ``found``, ``mirror_image``, ``known``, ``nodes_only``, ``not_found``
-    found: tuple[Found, ...]
+    A search does not prove that there are no others.
+
+    Examples
+    --------
+    >>> search = {"search": True, "search_at": [10.0], "search_guesses": 5}
+    >>> deck = arcwall.Deck.load("truss.toml").copy({f"path.{key}": value for key, value in search.items()})
+    >>> at = deck.copy({"path.stop.event": "limit-point"}).trace().search[0]
+    >>> at.lam, at.known, len(at.found)
+    (10.0, 1, 2)
+    """
+
+    lam: float  #: λ of the search
+    known: int  #: number of equilibria on traced branches
+    guesses: int  #: number of initial guesses
+    outcomes: Mapping[str, int]  #: guesses by outcome: ``found``, ``mirror_image``, ``known``, ``nodes_only``, ``not_found``
+    found: tuple[Found, ...]  #: equilibria found
 
 
 @dataclass(frozen=True, repr=False)
 class Event(Value):
-    """A located point of a path at which something happens, as in ``events.json``."""
+    """Located event of a path, as in ``events.json``.
 
-    id: int  #: counts from 0 over all branches
+    Examples
+    --------
+    >>> limit = arcwall.Deck.load("truss.toml").trace().events["limit-point"][0]
+    >>> round(limit.lam, 6), limit.extremum, limit.unstable_before, limit.unstable_after
+    (37.919801, 'maximum', 0, 1)
+    """
+
+    id: int  #: number of the event, from 0 over all branches
     kind: str  #: ``limit-point``, ``branch-point``, ``contact-closes``, …
-    branch: int
-    step: int  #: of the point it lies on
-    point: int  #: the same, as a row of ``path.table``
-    arc: float  #: arc length [path metric]
-    lam: float  #: λ
-    monitors: Mapping[str, float]
-    unstable_before: int | None
-    unstable_after: int | None
-    residual: float  #: relative
-    lambda_uncertainty: float  #: half-width in λ of what is left uncertain
-    contacts: tuple[Contact, ...] = ()  #: that change
-    #: dλ/dn by numbers of the deck that were asked for; None where there is none, see ``no_sensitivity``
+    branch: int  #: id of its branch
+    step: int  #: step of its point along the branch
+    point: int  #: row of its point in ``path.table``
+    arc: float  #: arc length along the branch [path metric]
+    lam: float  #: load factor λ
+    monitors: Mapping[str, float]  #: monitors, by name
+    unstable_before: int | None  #: number of unstable directions before the event; None if undetermined
+    unstable_after: int | None  #: number of unstable directions after the event; None if undetermined
+    residual: float  #: relative residual of equilibrium
+    lambda_uncertainty: float  #: half-width of the uncertainty of λ
+    contacts: tuple[Contact, ...] = ()  #: contacts that change
+    #: dλ/dn by the key of each requested parameter n; None if ``no_sensitivity`` has a reason
     sensitivity: Mapping[str, float | None] = field(default_factory=dict)
-    no_sensitivity: Mapping[str, str] = field(default_factory=dict)  #: why
-    extremum: str | None = None  #: of λ at a limit point: ``maximum`` or ``minimum``
-    monitor: str | None = None  #: which one turns; the label of an event function
-    type: str | None = None  #: of a branch point: ``pitchfork``, ``transcritical``, ``one-sided``, ``multiple``
-    multiplicity: int | None = None  #: of a branch point: critical modes
-    unconfirmed: bool = False  #: zero is touched without a change of sign, as nearly as can be told
-    mesh_artefact: bool = False  #: a branch point that only contact at nodes makes
-    branches: tuple[int, ...] = ()  #: that leave a branch point
-    #: of a branch point: rates of the monitors along the critical mode; of a system of one's own the mode itself
+    no_sensitivity: Mapping[str, str] = field(default_factory=dict)  #: reasons for missing sensitivities, by key
+    extremum: str | None = None  #: ``maximum`` or ``minimum`` of λ, at a limit point
+    monitor: str | None = None  #: monitor with the turning point, or label of the event function
+    type: str | None = None  #: type of a branch point: ``pitchfork``, ``transcritical``, ``one-sided`` or ``multiple``
+    multiplicity: int | None = None  #: number of critical modes of a branch point
+    unconfirmed: bool = False  #: True if the event function reaches zero without a confirmed change of sign
+    mesh_artefact: bool = False  #: True if only node contact may cause the branch point
+    branches: tuple[int, ...] = ()  #: ids of the traced branches that leave a branch point
+    #: critical mode of a branch point: rates of the monitors by name; for a `System` the vector, shape (n,)
     mode: Any = None
-    end: End | None = None  #: of an end
-    family: Continuum | None = None  #: of a change of contact: the branch keeps to one of these from here on
-    #: the jump; None where there is none, and where ``path.jumps`` is not asked for
+    end: End | None = None  #: reason of an ``end``
+    family: Continuum | None = None  #: family of equilibria of which the branch follows one, from this contact change on
+    #: jump at constant λ; None without a loss of stability, or without ``path.jumps``
     jump: Jump | None = None
-    stage: str | None = None
+    stage: str | None = None  #: name of the load step; None if the deck has none
+    #: number of unstable directions under load control, if λ prescribes displacements; else None
     unstable_load_control: int | None = None
 
 
 @dataclass(frozen=True, repr=False)
 class Branch(Value):
-    """Arcs joined end to end."""
+    """Branch of a path.
 
-    id: int
-    parent: int | None  #: the branch it leaves
-    origin: int | None  #: the event at which it does
-    mirror_image: bool  #: its mirror image leaves there too and is not traced
-    points: int
-    lam: tuple[float, float]  #: least and greatest λ of its points
-    end: End | None  #: None while it goes on
-    stage: str | None = None
-    disconnected: bool = False  #: it leaves no branch: ``path.search`` has found where it begins
+    Examples
+    --------
+    >>> branch = arcwall.Deck.load("truss.toml").trace().branches[0]
+    >>> branch.points, branch.end.reason, branch.disconnected
+    (22, 'stop', False)
+    """
+
+    id: int  #: number of the branch, from 0
+    parent: int | None  #: id of the branch that it leaves; None for the first and for disconnected branches
+    origin: int | None  #: id of the event at which it leaves; None as for ``parent``
+    mirror_image: bool  #: True if its mirror image leaves the same event and is not traced
+    points: int  #: number of its points
+    lam: tuple[float, float]  #: minimum and maximum λ of its points
+    end: End | None  #: its end; None if it can be continued
+    stage: str | None = None  #: name of the load step; None if the deck has none
+    disconnected: bool = False  #: True if it starts at an equilibrium that a search found
 
 
 @dataclass(frozen=True, repr=False)
 class Point(Value):
-    """A converged point of a path: a row of ``path.csv``, with its contacts."""
+    """Converged point of a path: a row of ``path.csv``, with its contacts.
 
-    index: int  #: row of ``path.table``
-    branch: int
-    step: int
-    arc: float
-    lam: float
-    monitors: Mapping[str, float]
-    unstable: int | None
+    Examples
+    --------
+    >>> point = arcwall.Deck.load("channel.toml").trace().points[-1]
+    >>> point.lam, point.stability, len(point.contacts)
+    (9.0, 'stable', 3)
+    """
+
+    index: int  #: row of the point in ``path.table``
+    branch: int  #: id of its branch
+    step: int  #: step along the branch, from 0
+    arc: float  #: arc length along the branch [path metric]
+    lam: float  #: load factor λ
+    monitors: Mapping[str, float]  #: monitors, by name
+    unstable: int | None  #: number of unstable directions; None if undetermined
     stability: str  #: ``stable``, ``unstable`` or ``undecided``
-    contacts: tuple[Contact, ...]  #: closed ones, of which each carries a force
-    energy: float | None
-    iterations: int
-    residual: float
-    event: str | None
-    stage: str | None = None
+    contacts: tuple[Contact, ...]  #: closed contacts with their forces
+    energy: float | None  #: total potential energy [force·length]
+    iterations: int  #: Newton iterations of the step
+    residual: float  #: relative residual of equilibrium
+    event: str | None  #: kind of the event at this point; None without one
+    stage: str | None = None  #: name of the load step; None if the deck has none
+    #: number of unstable directions under load control, if λ prescribes displacements; else None
     unstable_load_control: int | None = None
 
 
 class Events(Sequence[Event]):
-    """Events in their order. ``events[0]`` is one, ``events["limit-point"]`` those of a kind, ``events[2:4]`` a part."""
+    """Sequence of the events of a path, in the order of its branches and points.
+
+    ``events[0]`` is an `Event`, ``events[2:4]`` a slice and ``events["limit-point"]`` the events of a kind.
+
+    Parameters
+    ----------
+    events : sequence of Event
+        The events.
+    kind : str, optional
+        Kind of all of them; empty by default, for events of different kinds.
+
+    Raises
+    ------
+    KeyError
+        For an unknown kind of event.
+    IndexError
+        For a number beyond the events.
+
+    Examples
+    --------
+    >>> events = arcwall.Deck.load("truss.toml").trace().events
+    >>> events["limit-point"]
+    <arcwall.Events
+      1  limit-point          λ = 37.9198013
+      2  limit-point          λ = -37.9198013>
+    """
 
     def __init__(self, events: Sequence[Event], kind: str = ""):
         self._events = tuple(events)
-        self._kind = kind  # of which all are; empty: any
+        self._kind = kind  # kind of all events; empty if they differ
 
     @overload
     def __getitem__(self, which: int) -> Event: ...
@@ -215,7 +328,10 @@ class Events(Sequence[Event]):
 
     @property
     def table(self) -> pd.DataFrame:
-        """The events as a pandas DataFrame, one row each: what and where, λ, the monitors, and unstable directions."""
+        """Events as a new pandas DataFrame, one row each; needs pandas.
+
+        The columns are those of position, λ, the monitors and the numbers of unstable directions.
+        """
         import pandas as pd
 
         names = ["id", "kind", "branch", "step", "point", "lambda"]
@@ -312,7 +428,7 @@ def _return_of(json: Mapping[str, Any] | None) -> Return | None:
 
 
 def searches_of(json: Mapping[str, Any] | None) -> tuple[Search, ...]:
-    """Those of result.json."""
+    """Read the searches of ``result.json``."""
     return tuple(
         Search(
             lam=_float(at["lambda"]),
@@ -320,7 +436,14 @@ def searches_of(json: Mapping[str, Any] | None) -> tuple[Search, ...]:
             guesses=at["guesses"],
             outcomes=at["outcomes"],
             found=tuple(
-                Found(f["contact_pattern"], _floats(f["monitors"]), _float(f["energy"]), f["unstable"], f["became"], tuple(f["branches"]))
+                Found(
+                    contact_pattern=f["contact_pattern"],
+                    monitors=_floats(f["monitors"]),
+                    energy=_float(f["energy"]),
+                    unstable=f["unstable"],
+                    became=f["became"],
+                    branches=tuple(f["branches"]),
+                )
                 for f in at["found"]
             ),
         )
@@ -329,7 +452,7 @@ def searches_of(json: Mapping[str, Any] | None) -> tuple[Search, ...]:
 
 
 def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None) -> Event:
-    """An event as in events.json, on that point of its path."""
+    """Read an event of ``events.json`` at the given point of its path."""
     return Event(
         id=json["id"],
         kind=json["kind"],

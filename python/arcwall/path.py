@@ -1,4 +1,4 @@
-"""Paths of decks: what a run has traced."""
+"""Equilibrium paths of decks."""
 
 from __future__ import annotations
 
@@ -28,15 +28,23 @@ __all__ = ["Path", "State", "Tracing", "load"]
 
 @dataclass(frozen=True)
 class State:
-    """All that varies along a path at a point."""
+    """State of a path at a point.
 
-    x: np.ndarray  #: unknowns, as the engine has them (docs/theory.md, sections 1 and 8.1); shape (unknowns,)
-    lam: float
-    closed: np.ndarray  #: which contacts are closed; bool, shape (contacts,)
+    Examples
+    --------
+    >>> path = arcwall.Deck.load("truss.toml").trace()
+    >>> state = path.state(-1)
+    >>> state.x.shape, state.lam == path["lambda"][-1], state.closed.size
+    ((2,), True, 0)
+    """
+
+    x: np.ndarray  #: degrees of freedom and contact unknowns, float64 of shape (unknowns,)
+    lam: float  #: load factor λ
+    closed: np.ndarray  #: True for each closed contact; bool of shape (contacts,)
 
 
 class _Points(Sequence[Point]):
-    """The points of a path, made as they are asked for."""
+    """Points of a path, created on access."""
 
     def __init__(self, run: Any):
         self._run = run
@@ -55,72 +63,173 @@ class _Points(Sequence[Point]):
 
 
 class Path(Curve):
-    """What was traced of a deck: points, events and branches. It owns all that it needs, the deck may go.
+    """Equilibrium path of a deck: points, events and branches.
 
-    Made by ``deck.trace()``, ``deck.tracing().path`` and ``arcwall.load(folder)``. It can be pickled and copied, with all that is
-    needed to go on.
+    `Deck.trace`, `Deck.tracing` and `load` return one. It can be copied, pickled and continued by `resume`.
+
+    Examples
+    --------
+    >>> path = arcwall.Deck.load("channel.toml").trace()
+    >>> path
+    <arcwall.Path of 48 points, 7 events, 1 branches>
+    >>> path.units["length"], path.monitors["mid"], round(float(path["mid"][-1]), 6)
+    ('cm', 'cm', -0.15)
     """
 
     @property
     def deck(self) -> Deck:
-        """The deck that was traced."""
+        """Deck of the path, a copy."""
         name, text, assignments = self._run.description()
         return Deck._of(text.encode(), name, assignments)
 
     @property
     def warnings(self) -> list[str]:
-        """What one should know of the deck though it is no error."""
+        """Warnings about the deck, one sentence each."""
         return self._run.warnings()
 
     @property
     def search(self) -> tuple[Search, ...]:
-        """What was looked for beside the traced branches and found, at one λ after the other; empty without ``path.search``."""
+        """Searches for disconnected branches, one for each λ; empty without ``path.search``."""
         return searches_of(self._run.search())
 
     @property
     def branch_map(self) -> BranchMap:
-        """The branch map: the states over λ, and what leads from one to another, as in ``branches.json``. Empty for load
-        increments and for decks with stages."""
+        """Branch map, as in ``branches.json``.
+
+        It is empty for ``path.method = "incremental"`` and for decks with load steps.
+        """
         return branch_map_of(self._run.branch_map())
 
     @property
     def units(self) -> dict[str, str]:
-        """The deck's units of length, force and energy; empty texts where it names none."""
+        """Units of length, force and energy; empty if the deck gives none."""
         return dict(zip(("length", "force", "energy"), self._run.units()))
 
     @property
     def points(self) -> Sequence[Point]:
-        """The points as objects, with their contacts and forces."""
+        """Points as `Point` objects, with their contacts."""
         return _Points(self._run)
 
     def tracing(self) -> Tracing:
-        """Goes on a point at a time."""
+        """Return an iterator that continues the path point by point.
+
+        Returns
+        -------
+        Tracing
+
+        Examples
+        --------
+        >>> path = arcwall.Deck.load("truss.toml").trace(max_points=5)
+        >>> next(path.tracing()).index, len(path)
+        (5, 6)
+        """
         return Tracing(self)
 
     def state(self, point: int) -> State:
-        """The state at a point: a copy."""
+        """Return a copy of the state at a point.
+
+        Parameters
+        ----------
+        point : int
+            Row in ``table``; a negative one counts from the end.
+
+        Returns
+        -------
+        State
+
+        Raises
+        ------
+        IndexError
+            If there is no such point.
+        """
         x, lam, closed = self._run.state(row_of(point, len(self)))
         return State(x, lam, np.asarray(closed, dtype=bool))
 
     def shape(self, point: int) -> Shape:
-        """The deformed structure at a point of the path: its row in ``table``, or −1 for the last."""
+        """Return the deformed structure at a point.
+
+        Parameters
+        ----------
+        point : int
+            Row in ``table``; a negative one counts from the end.
+
+        Returns
+        -------
+        Shape
+
+        Raises
+        ------
+        IndexError
+            If there is no such point.
+
+        Examples
+        --------
+        >>> path = arcwall.Deck.load("channel.toml").trace()
+        >>> shape = path.shape(path.events["limit-point"][0].point)
+        >>> [mark.wall for mark in shape.contacts]
+        ['upper', 'upper']
+        """
         index = row_of(point, len(self))
         members, contacts, walls = self._run.shape(index)
         return shape_of(members, contacts, walls, float(self["lambda"][index]))
 
     def converge(self, *, levels: int = 3, factor: int = 2) -> Convergence:
-        """How sure the events are: the deck on several meshes, as ``deck.converge()``."""
+        """Estimate the mesh errors of the events; see `Deck.converge`.
+
+        Parameters
+        ----------
+        levels : int, default 3
+            Number of meshes, 2 to 8.
+        factor : int, default 2
+            Refinement from mesh to mesh, 2 to 10.
+
+        Returns
+        -------
+        Convergence
+
+        Raises
+        ------
+        ValueError
+            If ``levels`` or ``factor`` is out of range.
+        """
         return self.deck.converge(levels=levels, factor=factor)
 
     def report(self) -> str:
-        """``report.html`` as a text: one page that needs no other file and no network."""
+        """Return ``report.html``, one self-contained page.
+
+        Returns
+        -------
+        str
+        """
         return self._run.report()
 
     def save(self, folder: str | os.PathLike[str], *, force: bool = False, pictures: bool = True) -> None:
-        """Writes a run folder, file by file what ``trace-path run`` writes; ``arcwall.load`` and ``trace-path resume`` read it.
+        """Write a run folder with the files of ``trace-path run``.
 
-        ``force``: also into a folder that something else filled. ``pictures``: ``report.html`` and the shapes for ParaView.
-        FileError where it cannot be written; ValueError for a path without points.
+        `load` and ``trace-path resume`` read it.
+
+        Parameters
+        ----------
+        folder : str or os.PathLike
+            Folder to write into.
+        force : bool, default False
+            Whether to write into a folder with other files.
+        pictures : bool, default True
+            Whether to write ``report.html`` and the shapes for ParaView.
+
+        Raises
+        ------
+        FileError
+            If the folder cannot be written or has other files.
+        ValueError
+            If the path has no points.
+
+        Examples
+        --------
+        >>> path = arcwall.Deck.load("truss.toml").trace()
+        >>> path.save("truss-run", pictures=False)
+        >>> arcwall.load("truss-run").events == path.events
+        True
         """
         if not len(self):
             raise ValueError("a path without points cannot be saved: trace one")
@@ -129,13 +238,52 @@ class Path(Curve):
     # --- pictures -------------------------------------------------------------------------------------------------------
 
     def plot_shape(self, point: int = -1, *, ax: Axes | None = None) -> Axes:
-        """Draws the walls, the structure at a point and, in grey, at the first one; returns the axes. Needs matplotlib."""
+        """Draw the structure and its walls at a point, and the first shape in grey; needs matplotlib.
+
+        Parameters
+        ----------
+        point : int, default -1
+            Row in ``table``; a negative one counts from the end.
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw into; new ones by default.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        IndexError
+            If there is no such point.
+
+        Examples
+        --------
+        >>> arcwall.Deck.load("channel.toml").trace().plot_shape().get_title()
+        'λ = 9'
+        """
         from .pictures import plot_shape
 
         return plot_shape(self, point, ax)
 
     def animate(self, *, every: int = 1, interval: int = 50) -> FuncAnimation:
-        """The shapes along the path as an animation of matplotlib, of every n-th point, ``interval`` milliseconds each."""
+        """Make an animation of the shapes along the path; needs matplotlib.
+
+        Parameters
+        ----------
+        every : int, default 1
+            Draw each point with a row that is a multiple of it.
+        interval : int, default 50
+            Time of each frame [ms].
+
+        Returns
+        -------
+        matplotlib.animation.FuncAnimation
+
+        Raises
+        ------
+        ValueError
+            If ``every`` is less than 1 or the path has no points.
+        """
         from .pictures import animate
 
         return animate(self, every, interval)
@@ -165,10 +313,27 @@ def _restored(checkpoint: bytes) -> Path:
 
 
 class Tracing(Iterator[Point]):
-    """Traces a path while it is iterated. Between two points anything may be done with ``path``; Ctrl-C stops it there."""
+    """Iterator that traces a path point by point; returned by `Deck.tracing` and `Path.tracing`.
+
+    Between two points a program may use ``path`` freely. Ctrl-C raises KeyboardInterrupt there.
+
+    Parameters
+    ----------
+    path : Path
+        Path to continue.
+
+    Examples
+    --------
+    >>> tracing = arcwall.Deck.load("channel.toml").tracing()
+    >>> for point in tracing:
+    ...     if point.contacts:
+    ...         break
+    >>> point.event, round(point.lam, 6), len(tracing.path)
+    ('contact-closes', 0.430011, 16)
+    """
 
     def __init__(self, path: Path):
-        self.path = path  #: what was traced so far
+        self.path = path  #: path traced so far
 
     def __iter__(self) -> Tracing:
         return self
@@ -183,8 +348,29 @@ class Tracing(Iterator[Point]):
 
 
 def load(folder: str | os.PathLike[str]) -> Path:
-    """The path in a run folder, from its ``checkpoint``; one that was stopped from outside can go on.
+    """Read the path of a run folder from its ``checkpoint``.
 
-    FileError where there is none, or one of another version. Nothing in the folder is changed.
+    An interrupted path can be continued by `Path.resume`. The folder is not changed.
+
+    Parameters
+    ----------
+    folder : str or os.PathLike
+        Run folder of `Path.save` or ``trace-path run``.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    FileError
+        If the folder has no checkpoint of this version.
+
+    Examples
+    --------
+    >>> arcwall.Deck.load("truss.toml").trace(max_points=5).save("truss-begun", pictures=False)
+    >>> path = arcwall.load("truss-begun")
+    >>> path.ended, len(path.resume())
+    (False, 22)
     """
     return Path(_engine.Run.of_folder(os.fspath(folder)))

@@ -1,4 +1,4 @@
-"""Pictures of paths with matplotlib, which is imported when the first one is drawn."""
+"""Pictures of paths with matplotlib, imported when the first one is drawn."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def plot_event_curve(curve: EventCurve, x: str, y: str, ax: Any) -> Any:
     ax = _axes(ax)
     stability = [_stability_beside(*counts) for counts in zip(curve["unstable_before"], curve["unstable_after"])]
     first = 0
-    for last in range(1, len(curve)):  # a line has the stability of the points behind its first
+    for last in range(1, len(curve)):  # a line has the stability of its second point
         if last + 1 == len(curve) or stability[last + 1] != stability[last]:
             ax.plot(
                 across[first : last + 1], up[first : last + 1], _DASHES[stability[last]], color=COLOURS[0], linewidth=1.8
@@ -111,7 +111,7 @@ def plot_event_curve(curve: EventCurve, x: str, y: str, ax: Any) -> Any:
     return ax
 
 
-# Of an event: stable where one side of it is.
+# Stable if one side of the event is stable.
 def _stability_beside(before: float, after: float) -> str:
     if np.isnan(before) or np.isnan(after):
         return "undecided"

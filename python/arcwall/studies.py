@@ -1,4 +1,4 @@
-"""How sure the events of a deck are: the same deck on several meshes."""
+"""Mesh error of the events of a deck, estimated on several meshes."""
 
 from __future__ import annotations
 
@@ -14,25 +14,42 @@ __all__ = ["ConvergedEvent", "Convergence"]
 
 @dataclass(frozen=True)
 class ConvergedEvent:
-    """An event on several meshes; as in ``convergence.json``."""
+    """Event on several meshes, as in ``convergence.json``.
 
-    kind: str
-    number: int  #: counts from 1 among its kind
-    what: str
-    lam: tuple[float | None, ...]  #: by mesh; None where it has no such event
-    order: float | None  #: in which the error falls with the element's length
-    irregular: str | None  #: why no order is trusted
-    extrapolated: float  #: λ with the error of the mesh taken out
-    error: float | None  #: half-width of its error bar
-    error_of_deck: float | None  #: of λ on the deck's own mesh
+    Examples
+    --------
+    >>> event = arcwall.Deck.load("truss.toml").converge(levels=2).events[0]
+    >>> event.kind, event.number, round(event.extrapolated, 6)
+    ('limit-point', 1, 37.919801)
+    """
+
+    kind: str  #: kind of the event, such as ``limit-point``
+    number: int  #: number among the events of its kind, from 1
+    what: str  #: detail of the event, such as ``maximum`` or the wall
+    lam: tuple[float | None, ...]  #: λ for each mesh, coarsest first; None if the mesh has no such event
+    order: float | None  #: convergence order of λ with the element length; None if irregular
+    irregular: str | None  #: why no order was determined; None if it was
+    extrapolated: float  #: extrapolated λ, or λ of the finest mesh without an order
+    error: float | None  #: half-width of the error bar of ``extrapolated``; None if unknown
+    error_of_deck: float | None  #: mesh error of λ on the deck's own mesh; None if unknown
 
 
 class Convergence:
-    """The events of a deck with their error bars, made by ``deck.converge()``. ``print(study)`` shows the tables."""
+    """Events of a deck with their mesh errors; returned by `Deck.converge`.
+
+    ``print(study)`` shows the tables of ``trace-path converge``.
+
+    Examples
+    --------
+    >>> study = arcwall.Deck.load("truss.toml").converge(levels=2)
+    >>> [(event.kind, event.what) for event in study.events]
+    [('limit-point', 'maximum'), ('limit-point', 'minimum')]
+    """
 
     def __init__(self, json: Mapping[str, Any], text: str):
-        self.json = json  #: all of ``convergence.json``
+        self.json = json  #: content of ``convergence.json``
         self._text = text
+        #: events with their values on each mesh
         self.events = tuple(
             ConvergedEvent(
                 kind=one["kind"],
@@ -50,7 +67,7 @@ class Convergence:
 
     @property
     def table(self) -> pd.DataFrame:
-        """The events as a pandas DataFrame, one row each."""
+        """Events as a new pandas DataFrame, one row each; needs pandas."""
         import pandas as pd
 
         return pd.DataFrame([vars(event) for event in self.events])

@@ -1,4 +1,4 @@
-"""Systems of one's own: equations F(x, λ) = 0 as methods of a class."""
+"""User-defined systems: equations F(x, λ) = 0 as methods of a class."""
 
 from __future__ import annotations
 
@@ -16,36 +16,117 @@ __all__ = ["Detector", "System", "SystemPath", "trace"]
 
 
 class System(Protocol):
-    """What ``arcwall.trace`` follows: any object with these methods. One may derive from this class, and need not.
+    """Protocol of the equations F(x, λ) = 0 that `trace` follows.
 
-    ``x`` is a float64 array of shape (n,) that cannot be written into, ``lam`` a float. A method may return anything that numpy
-    makes an array of real numbers. ``energy(x, lam)``, a number, is optional.
+    Any object with these methods is a system; it need not derive from this class. The optional method
+    ``energy(x, lam)`` returns the total potential energy, a float.
+
+    Notes
+    -----
+    ``x`` is a read-only float64 array of shape (n,) and ``lam`` a float. Methods return real arrays, or anything that
+    numpy converts to them.
+
+    Examples
+    --------
+    >>> class Fold(arcwall.System):  # λ = 2x − x²
+    ...     def residual(self, x, lam):
+    ...         return 2.0 * x - x**2 - lam
+    ...
+    ...     def jacobian(self, x, lam):
+    ...         return [[2.0 - 2.0 * x[0]]]
+    ...
+    ...     def dlam(self, x, lam):
+    ...         return [-1.0]
+    >>> path = arcwall.trace(Fold(), [0.0], stop={0: (-1.0, 2.0)})
+    >>> round(path.events["limit-point"][0].lam, 9)
+    1.0
     """
 
     def residual(self, x: np.ndarray, lam: float) -> Any:
-        """F(x, λ), shape (n,): internal minus external forces. F = 0 is equilibrium."""
+        """Return F(x, λ), internal minus external forces.
+
+        Parameters
+        ----------
+        x : numpy.ndarray
+            Unknowns, shape (n,).
+        lam : float
+            Load factor λ.
+
+        Returns
+        -------
+        array_like
+            Shape (n,); zero at equilibrium.
+        """
         ...
 
     def jacobian(self, x: np.ndarray, lam: float) -> Any:
-        """∂F/∂x, shape (n, n), dense or a matrix of scipy.sparse; symmetric, as F is the gradient of an energy."""
+        """Return the tangent stiffness ∂F/∂x.
+
+        Parameters
+        ----------
+        x : numpy.ndarray
+            Unknowns, shape (n,).
+        lam : float
+            Load factor λ.
+
+        Returns
+        -------
+        array_like or scipy.sparse matrix
+            Shape (n, n); symmetric, because F is the gradient of an energy.
+        """
         ...
 
     def dlam(self, x: np.ndarray, lam: float) -> Any:
-        """∂F/∂λ, shape (n,)."""
+        """Return ∂F/∂λ.
+
+        Parameters
+        ----------
+        x : numpy.ndarray
+            Unknowns, shape (n,).
+        lam : float
+            Load factor λ.
+
+        Returns
+        -------
+        array_like
+            Shape (n,).
+        """
         ...
 
 
 class Detector(NamedTuple):
-    """An event function: each place where ``function(x, lam)`` passes zero is located and becomes a point of the path."""
+    """Event function with a direction; each located zero becomes a point of the path.
 
-    function: Callable[[np.ndarray, float], float]  #: of order 1 and smooth; values below 1e-7 have no sign
-    direction: int = 0  #: 1: only where it rises along the path, −1: only where it falls
+    Examples
+    --------
+    >>> class Line(arcwall.System):  # x = λ
+    ...     residual = staticmethod(lambda x, lam: x - lam)
+    ...     jacobian = staticmethod(lambda x, lam: [[1.0]])
+    ...     dlam = staticmethod(lambda x, lam: [-1.0])
+    >>> half = arcwall.Detector(lambda x, lam: x[0] - 0.5, direction=1)
+    >>> path = arcwall.trace(Line(), [0.0], stop={"lambda": (-1.0, 1.0)}, events={"half": half})
+    >>> [(event.monitor, round(event.lam, 9)) for event in path.events["user"]]
+    [('half', 0.5)]
+    """
+
+    function: Callable[[np.ndarray, float], float]  #: smooth function of (x, λ), scaled to order 1; below 1e-7 it counts as 0
+    direction: int = 0  #: 1: only where it increases along the path; -1: only where it decreases; 0: both
 
 
 class SystemPath(Curve):
-    """What was traced of a system of one's own. It owns all that it needs.
+    """Path of a user-defined system; returned by `trace`.
 
-    It cannot be pickled, as the equations are a program's; its tables, arrays and events can.
+    It cannot be copied or pickled, because it refers to the system. Its tables, arrays and events can.
+
+    Examples
+    --------
+    >>> class Line(arcwall.System):  # x = λ
+    ...     residual = staticmethod(lambda x, lam: x - lam)
+    ...     jacobian = staticmethod(lambda x, lam: [[1.0]])
+    ...     dlam = staticmethod(lambda x, lam: [-1.0])
+    >>> path = arcwall.trace(Line(), [0.0], stop={"lambda": (-1.0, 1.0)}, monitors={"square": lambda x, lam: x[0] ** 2})
+    >>> path.x.shape == (len(path), 1), round(float(path["square"][-1]), 9)
+    (True, 1.0)
     """
 
     def __init__(self, run: Any, monitors: Mapping[str, Callable[[np.ndarray, float], float]]):
@@ -54,6 +135,7 @@ class SystemPath(Curve):
 
     @property
     def monitors(self) -> Mapping[str, str]:
+        """Names of the monitors, with empty units."""
         return {name: "" for name in self._monitors}
 
     def _monitor_column(self, name: str) -> np.ndarray | None:
@@ -77,11 +159,29 @@ class SystemPath(Curve):
 
     @property
     def x(self) -> np.ndarray:
-        """The unknowns, shape (points, n)."""
+        """Unknowns of all points, a float64 array of shape (points, n)."""
         return self._cached("x", lambda: np.array([self._run.state(i)[0] for i in range(len(self))]))
 
     def state(self, point: int) -> tuple[np.ndarray, float]:
-        """x, shape (n,), and λ at a point."""
+        """Return the state at a point.
+
+        Parameters
+        ----------
+        point : int
+            Row in ``table``; a negative one counts from the end.
+
+        Returns
+        -------
+        x : numpy.ndarray
+            Unknowns, shape (n,).
+        lam : float
+            Load factor λ.
+
+        Raises
+        ------
+        IndexError
+            If there is no such point.
+        """
         return self._run.state(row_of(point, len(self)))[:2]
 
     def __reduce__(self) -> Any:
@@ -109,27 +209,82 @@ def trace(
     max_points: int = 5000,
     max_seconds: float | None = None,
 ) -> SystemPath:
-    """Follows the paths of a system (see System) from a state x0, λ0, which solves its equations or nearly so.
+    """Trace the paths of a system from a start near an equilibrium.
 
-    step            increment of λ of the first predictor; its sign is the direction
-    stop            bounds that end a branch: ``{"lambda": (-1, 4), 3: (0, 0.5)}``, a whole number being an unknown
-    stop_at         kinds of events of which the first ends a branch
-    output_at       values at each of which there is a point, by the same keys
-    events          event functions by their labels: each is a function of (x, λ), or a Detector; their events are of kind
-                    ``user`` and have the label as ``monitor``
-    watch           unknowns whose turning points are events
-    monitors        columns of the table: functions of (x, λ), called when they are asked for
-    branches        at branch points: ``primary`` stays, ``most-stable`` takes the branch with fewest unstable directions where the
-                    one ahead is unstable, ``all`` traces every branch, to ``depth``
-    method          ``spherical``, or ``load``: λ goes up by itself, and the path ends where it turns
-    weights         of the squared norm of x in the path metric, shape (n,), not negative; by default 1/n
-    min_step, max_step   arc lengths [path metric]
-    max_points      of a branch
-    max_seconds     of this call; ``path.resume()`` goes on
+    Parameters
+    ----------
+    system : System
+        Equations F(x, λ) = 0.
+    x0 : array_like
+        Unknowns at the start, shape (n,).
+    lam0 : float, default 0.0
+        Load factor λ at the start.
+    step : float, default 0.02
+        Increment of λ in the first predictor; its sign gives the direction.
+    stop : mapping, optional
+        Bounds that end a branch, such as ``{"lambda": (-1.0, 4.0), 3: (0.0, 0.5)}``. An integer is the index of an
+        unknown.
+    stop_at : iterable of str, optional
+        Kinds of events that end a branch.
+    output_at : mapping, optional
+        Values at which to output exact points, by the keys of ``stop``.
+    events : mapping, optional
+        Event functions of (x, λ), or `Detector` objects, by label. Their events have the kind ``user`` and the label
+        as ``monitor``.
+    watch : iterable of int, optional
+        Indices of unknowns whose turning points are events.
+    monitors : mapping, optional
+        Functions of (x, λ) by name, for columns of the table. They are evaluated on access.
+    branches : {"primary", "most-stable", "all"}, default "primary"
+        Branch switching: stay on the path; follow the branch with the fewest unstable directions; or trace all.
+    depth : int, default 2
+        Maximum depth of branches under ``"all"``.
+    method : {"spherical", "load"}, default "spherical"
+        Arc-length method, or load control. Load control ends at a limit point.
+    weights : array_like, optional
+        Weights of the squared norm of x in the path metric, shape (n,), not negative; 1/n by default.
+    min_step, max_step : float, default 1e-8 and 0.2
+        Minimum and maximum arc length of a step [path metric].
+    max_points : int, default 5000
+        Maximum number of points of a branch.
+    max_seconds : float, optional
+        Maximum time of this call [s]; unlimited by default. `Curve.resume` continues.
 
-    What a method raises comes out as it is. TypeError and ValueError say what a method returned and what is wanted, NotFinite
-    which number is none: of equations where no shorter step avoids that, at the start NoStart. All of them have the attribute
-    ``arcwall_state``, a pair of x and λ, and but for those of the start ``arcwall_path``, what was traced until then.
+    Returns
+    -------
+    SystemPath
+
+    Raises
+    ------
+    NoStart
+        If no equilibrium was found at the start.
+    NotFinite
+        If a function returns nan or infinity and no shorter step succeeds.
+    TypeError, ValueError
+        If an argument, or the result of a method, has the wrong type, shape or value.
+
+    Notes
+    -----
+    Exceptions of methods are passed on. They, and `NotFinite`, have the attribute ``arcwall_state``, the pair of x and
+    λ. After the start, exceptions also have ``arcwall_path``, the path traced so far.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> class Bratu(arcwall.System):  # u″ + λ eᵘ = 0, u(0) = u(1) = 0, by central differences
+    ...     K = 50**2 * (2.0 * np.eye(49) - np.eye(49, k=1) - np.eye(49, k=-1))
+    ...
+    ...     def residual(self, u, lam):
+    ...         return self.K @ u - lam * np.exp(u)
+    ...
+    ...     def jacobian(self, u, lam):
+    ...         return self.K - np.diag(lam * np.exp(u))
+    ...
+    ...     def dlam(self, u, lam):
+    ...         return -np.exp(u)
+    >>> path = arcwall.trace(Bratu(), np.zeros(49), stop={24: (-1.0, 4.0)})
+    >>> round(path.events["limit-point"][0].lam, 6)
+    3.513099
     """
     if isinstance(system, type):
         raise TypeError(f"a system is an object with methods; give {system.__name__}(…), not the class")

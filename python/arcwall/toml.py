@@ -1,4 +1,4 @@
-"""Values of Python as TOML, the language of decks."""
+"""Conversion of Python values to TOML, the format of decks."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 
 
 def value(of: Any) -> str:
-    """One value on one line. Numbers keep their last bit. TypeError for what TOML does not have."""
+    """Write a value in one line. Numbers are read back identically. Raises TypeError for types that TOML lacks."""
     if isinstance(of, (str, bytes)):
         return _text(of)
     if isinstance(of, Mapping):
@@ -34,7 +34,7 @@ def value(of: Any) -> str:
 
 
 def document(of: Mapping[str, Any]) -> str:
-    """A dict of dicts as a document with a header for each table."""
+    """Write a dict of dicts as a document with a header for each table."""
     lines: list[str] = []
     _add_table(of, "", lines)
     return "\n".join(lines) + "\n"

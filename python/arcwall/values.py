@@ -1,4 +1,4 @@
-"""What values of the package have in common: how they are shown."""
+"""Base class of the value types of the package."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 class Value:
-    """A dataclass that is shown without the fields that have their defaults."""
+    """Dataclass whose repr omits fields with default values."""
 
     def __repr__(self) -> str:
         shown = [one.name for one in fields(self) if one.repr and not self._is_default(one)]  # type: ignore[arg-type]

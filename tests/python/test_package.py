@@ -1,7 +1,6 @@
-"""The package as a whole: stubs, docstrings, names."""
+"""The package as a whole: stubs, types, what its module calls."""
 
 import ast
-import inspect
 import os
 import subprocess
 import sys
@@ -31,21 +30,6 @@ def test_the_stub_is_that_of_the_module(tmp_path):
 def check_arguments(node, signature):
     for argument in node.args.args:
         assert argument.arg == "self" or f"{argument.arg}:" in signature, (node.name, argument.arg)
-
-
-def test_each_name_of_the_package_is_there_and_says_what_it_is():
-    assert sorted(arcwall.__all__) == arcwall.__all__
-    for name in arcwall.__all__:
-        thing = getattr(arcwall, name)
-        assert name == "__version__" or inspect.getdoc(thing), name
-        if not inspect.isclass(thing) or not thing.__module__.startswith("arcwall"):
-            continue
-        for method, of in vars(thing).items():
-            if method.startswith("_") or not (inspect.isfunction(of) or isinstance(of, (property, classmethod))):
-                continue
-            if (name, method) == ("SystemPath", "monitors") or hasattr(of, "_fields"):
-                continue
-            assert inspect.getdoc(getattr(thing, method)) or inspect.getdoc(of), (name, method)
 
 
 # Annotations fit together inside the package, and are what a program that uses it relies on.
