@@ -67,7 +67,7 @@ fi
 if [[ $python == ON ]]; then
   cat <<END
 
-The same in Python, where numpy, pandas and matplotlib are (docs/python.md; notebooks in python/notebooks):
+The same in Python, where numpy, pandas and matplotlib are (docs/reference/python.md; notebooks in python/notebooks):
   export PYTHONPATH=$PYTHONPATH
   ${interpreter:-python3} -c 'import arcwall; print(arcwall.Deck.load("examples/channel.toml").trace().table)'
 END

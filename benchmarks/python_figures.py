@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the Python package costs: the figures of docs/python.md.
+"""What the Python package costs: the figures of docs/reference/python.md.
 
     python3 benchmarks/python_figures.py BUILD [--rounds N] [DECK …]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Traces the channel example with contact at nodes and with contact that slides, and draws docs/teeth.svg.
+"""Traces the channel example with node contact and with moving contact points, and draws docs/teeth.svg.
 
     python3 docs/make_pictures.py build/release/apps/trace-path
 """
@@ -32,9 +32,9 @@ class Curve:
 
 
 CURVES = [
-    Curve("nodes20", "contact at nodes, 20 elements", "nodes", 20),
-    Curve("nodes40", "contact at nodes, 40 elements", "nodes", 40),
-    Curve("sliding", "contact that slides, 20 elements", "sliding", 20),
+    Curve("nodes20", "node contact, 20 elements", "nodes", 20),
+    Curve("nodes40", "node contact, 40 elements", "nodes", 40),
+    Curve("sliding", "moving contact points, 20 elements", "moving", 20),
 ]
 
 # Colours of Okabe and Ito, which the colour-blind can tell apart; brighter ones where the page is dark.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes docs/report.png, docs/sweep.png and docs/curve.png, the pictures of pages in README.md, docs/sweep.md and
-# docs/answers.md: bash docs/make_screenshot.sh TRACE_PATH
+# Makes docs/report.png, docs/sweep.png and docs/curve.png, the pictures of pages in README.md, docs/reference/sweep.md and
+# docs/how-to: bash docs/make_screenshot.sh TRACE_PATH
 #
 # Needs chromium; the group report of cmake/install_debian_packages.sh has it.
 set -euo pipefail

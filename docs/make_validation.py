@@ -97,7 +97,7 @@ def essenburg_foundation(order: int) -> Case:
         Quantity("support's force at M₀ = 2.5", landed("support", 2.5), -3.3619634, ELEMENTS),
         Quantity("moment at which the middle lifts off", middle("contact-opens", "foundation"), 3.8275, ELEMENTS),
         Quantity("lower face at M₀ = 5", landed("bottom", 5.0), -0.07998188154683, ELEMENTS),
-    ], always=(f"member.beam.order={order}", "path.output_at.lambda=[0.4, 2.5]"),
+    ], always=(f"member.beam.order={order}", "path.land.lambda=[0.4, 2.5]"),
        note="The edge of the contact moves from node to node, which makes what depends on it irregular.")
 
 
@@ -131,7 +131,7 @@ def perfect_channel(theory: str) -> Case:
         ("the contact spreads to a line", load("contact-spreads"), 1.726295916538),
         ("the flat part buckles", load("branch-point", 1), 7.003081493782),
         ("shortening there", monitor("shortening", "branch-point", 1), 0.142961858290),
-        ("load at the least shortening", load("turning-point"), 6.214791656),
+        ("load at the least shortening", load("displacement-limit"), 6.214791656),
         ("touch of the opposite wall", load("contact-closes", 1), 4.253608535128),
         ("shortening there", monitor("shortening", "contact-closes", 1), 0.313645142120),
         ("three contacts become lines", load("contact-spreads", 1), 14.8210269646),
@@ -185,7 +185,7 @@ def tips(theory: str) -> list:
         Case(f"Tip that slides onto a cylinder, theory {theory}", "docs/validation/tip_on_cylinder.toml",
              meshes({"strip": 1}, [10, 20, 40, 80]), [
             Quantity("load of the touch", load("contact-closes"), 0.2135655724265, shooting),
-            Quantity("load at which contact leaves the tip", load("contact-transfers"), 2.6229685102, shooting),
+            Quantity("load at which contact leaves the tip", load("contact-passes"), 2.6229685102, shooting),
             Quantity("force of the contact, at λ = 8", landed("p", 8.0), 5.794849810795 * math.cos(0.154871139219), shooting),
         ], always=(f"member.strip.theory='{theory}'",)),
     ]
@@ -281,7 +281,7 @@ def under_pressure() -> list:
         [Quantity("pressure at which it sways", load("branch-point"), 3.00127583475769, PRESSED)],
         always=tuple(f"member.{m}.theory='{theory}'" for m in ("west", "east")))
     return [
-        arch("euler-bernoulli"), arch("elastica"),
+        arch("classic"), arch("elastica"),
         Case("Ring under pressure", "docs/validation/pressed_ring.toml", meshes({"quarter": 1}, [4, 8, 16]),
              [Quantity("pressure at which it buckles", load("branch-point"), 3.0, UNSTRETCHED)]),
     ]
@@ -289,7 +289,7 @@ def under_pressure() -> list:
 
 def walls(clearance: float) -> str:
     """Flat walls below and above the axis z = 0, as one value for --set."""
-    wall = lambda name, side, z: (f"{{name='{name}', side='{side}', contact_surface='axis', profile={{type='flat', z={z}}}}}")
+    wall = lambda name, side, z: (f"{{name='{name}', side='{side}', acts_on='axis', profile={{type='flat', z={z}}}}}")
     return f"wall=[{wall('under', 'below', -clearance)}, {wall('over', 'above', clearance)}]"
 
 
@@ -302,7 +302,7 @@ def buckling_on_springs(k: float, EA: float) -> float:
 def driven_otherwise() -> list:
     """Paths along which λ moves supports, walls or temperatures instead of multiplying a load."""
     channel = "docs/validation/channel_third_harmonic.toml"
-    in_channel = ("contact.points='moving'", "member.column.theory='elastica'", "path.branches='follow'",
+    in_channel = ("contact.points='sliding'", "member.column.theory='elastica'", "path.branches='follow'",
                   "monitor.1={name='P', at='right', component='reaction-x', sign=-1}")
     return [
         Case("Column in a channel, end shortening prescribed", channel, meshes({"column": 1}, [20, 40, 80]), [
@@ -333,10 +333,10 @@ def driven_otherwise() -> list:
         ], always=("path.branches='primary'",),
              note="A foundation with a law buckles at the load of its first stiffness."),
         Case("Sine arch under a round indenter", "docs/validation/indenter.toml", meshes({"arch": 1}, [10, 20, 40]), [
-            Quantity("way at the greatest push", load("turning-point"), 0.056131352628, SHOOTING),
-            Quantity("greatest push", monitor("F", "turning-point"), 0.17024981411406, SHOOTING),
-            Quantity("way at the least push", load("turning-point", 1), 0.147704654127, SHOOTING),
-            Quantity("least push", monitor("F", "turning-point", 1), 0.039265852399, SHOOTING),
+            Quantity("way at the greatest push", load("displacement-limit"), 0.056131352628, SHOOTING),
+            Quantity("greatest push", monitor("F", "displacement-limit"), 0.17024981411406, SHOOTING),
+            Quantity("way at the least push", load("displacement-limit", 1), 0.147704654127, SHOOTING),
+            Quantity("least push", monitor("F", "displacement-limit", 1), 0.039265852399, SHOOTING),
         ]),
         Case("Ring between plates, held by nothing else", "docs/validation/ring_between_plates.toml",
              meshes({"right": 1, "left": 1}, [12, 24, 48]), [
@@ -383,8 +383,8 @@ def cases() -> list:
              meshes({"column": 1, "short": 0.2, "long": 0.8}, [10, 20, 40, 80]), [
             Quantity("first limit load", load("limit-point"), 1.855672753757, CHECKED),
             Quantity("way there", monitor("down", "limit-point"), 48.735137245104, CHECKED),
-            Quantity("load at the first displacement limit", load("turning-point"), 1.194410418780, CHECKED),
-            Quantity("load at the second displacement limit", load("turning-point", 1), -0.438048021661, CHECKED),
+            Quantity("load at the first displacement limit", load("displacement-limit"), 1.194410418780, CHECKED),
+            Quantity("load at the second displacement limit", load("displacement-limit", 1), -0.438048021661, CHECKED),
             Quantity("second limit load", load("limit-point", 1), -0.941443155560, CHECKED),
         ]),
         Case("Lee's frame, elastica of order 6", "examples/lee.toml",
@@ -396,7 +396,7 @@ def cases() -> list:
         Case("Deep arch of 215°, hinged and clamped", "examples/arch.toml",
              meshes({"west": 1, "east": 1}, [8, 16, 32, 64]), [
             Quantity("first limit load", load("limit-point"), 897.294947593916, CHECKED),
-            Quantity("load at the first displacement limit", load("turning-point"), 559.219378191646, CHECKED),
+            Quantity("load at the first displacement limit", load("displacement-limit"), 559.219378191646, CHECKED),
             Quantity("second limit load", load("limit-point", 1), -73.051143418756, CHECKED),
         ], always=("path.watch=['down']",),
              note="DaDeppo and Schmidt 1975 give 8.97 EI/R² for the inextensible arch, 897 here."),
@@ -425,7 +425,7 @@ def cases() -> list:
         Case("Pinned column, flexible in shear", "docs/validation/column.toml", meshes({"column": 1}, [4, 8, 16, 32]), [
             Quantity("first buckling load", load("branch-point"), buckling(1, 1000.0, 500.0), "closed form"),
             Quantity("second buckling load", load("branch-point", 1), buckling(2, 1000.0, 500.0), "closed form"),
-        ], always=("member.column.theory='reissner'",)),
+        ], always=("member.column.theory='exact'",)),
         *column_on_springs(),
         Case("Pinned column between springs without clearance", "docs/validation/column.toml",
              meshes({"column": 1}, [8, 16, 32, 64]), [
@@ -457,11 +457,11 @@ def cases() -> list:
             Quantity("moment at which the contact spreads", load("contact-closes", 1), 1.34307213737, FIRST_INTEGRAL),
             Quantity("turn of the end at M₀ = 1", landed("turn", 1.0), 0.209846018033, FIRST_INTEGRAL),
             Quantity("turn of the end at M₀ = 2.5", landed("turn", 2.5), 0.329610888261, FIRST_INTEGRAL),
-        ], always=("contact.points='nodes'", "monitor=[{name='turn', at='right', component='rotation'}]", "path.output_at.lambda=[1.0, 2.5]",
+        ], always=("contact.points='nodes'", "monitor=[{name='turn', at='right', component='rotation'}]", "path.land.lambda=[1.0, 2.5]",
                    "path.stop.lambda=[-1.0, 3.0]")),
         *(essenburg_foundation(order) for order in (1, 2)),
-        *(perfect_channel(theory) for theory in ("euler-bernoulli", "elastica")),
-        *(clamped_channel(theory) for theory in ("euler-bernoulli", "elastica")),
+        *(perfect_channel(theory) for theory in ("classic", "elastica")),
+        *(clamped_channel(theory) for theory in ("classic", "elastica")),
         Case("Column in a channel, half sine of 0.00176 cm", "docs/validation/channel_half_sine.toml",
              meshes({"column": 1}, [20, 40, 80, 160]), [
             Quantity("load of the first touch", load("contact-closes"), 0.430656908534, IMPERFECT),
@@ -474,9 +474,9 @@ def cases() -> list:
                 "from node to node and the load is that of the highest tooth of the path, so finer meshes do not come "
                 "nearer in these steps (theory.md, section 7)."),
         essenburg_channel(),
-        *(force_passed(theory) for theory in ("euler-bernoulli", "elastica")),
-        *(case for theory in ("euler-bernoulli", "elastica") for case in tips(theory)),
-        *(case for theory in ("euler-bernoulli", "elastica") for case in outlines(theory)),
+        *(force_passed(theory) for theory in ("classic", "elastica")),
+        *(case for theory in ("classic", "elastica") for case in tips(theory)),
+        *(case for theory in ("classic", "elastica") for case in outlines(theory)),
         *driven_otherwise(),
     ]
 
@@ -568,8 +568,8 @@ with k u, of two cantilevers that a spring joins with a third of the load; the p
 
 Searches are compared in `tests/apps/search_test.cpp`: the equilibria of a truss with a closed form, and those of a column in a channel with a half sine, lying flat on one wall at λ = 6.5, with
 shooting, which knows 16 of up to three contacts, images counted once. From the first branch alone 13 to 15 of the other 15 are found with 50 tries, all of two and three contacts among them, none that is false, each to 10⁻⁶ of
-shortening and energy ([answers.md](answers.md#what-else-is-there) has the tries and their cost). Falls are compared in `tests/apps/jump_test.cpp` with closed forms and shooting, and in
-`tests/apps/jump_motion_test.cpp` on ten problems with a slow motion among stiff springs.
+shortening and energy ([how-to](how-to/disconnected-branches.md) has the tries and their cost). Falls are compared in `tests/apps/landing_test.cpp` with closed forms and shooting, and in
+`tests/apps/landing_motion_test.cpp` on ten problems with a slow motion among stiff springs.
 
 A knock-down map over two imperfections by runs and by curves is the same to 1e-13 (`tests/apps/curve_session_test.cpp`).
 

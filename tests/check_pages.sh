@@ -11,9 +11,9 @@ fail() {
 
 folders='apps|benchmarks|cmake|contact|continuation|core|docs|elements|examples|model|python|tests'
 # A page without its blocks of code.
-text_of() { awk '/^```/ { code = !code; next } !code' "$1"; }
+text_of() { awk '/^ *```/ { code = !code; next } !code' "$1"; }
 
-for page in README.md CHANGELOG.md docs/*.md core/algebra/*/README.md; do
+for page in README.md CHANGELOG.md docs/*.md docs/*/*.md core/algebra/*/README.md; do
   while IFS= read -r name; do
     [[ -e ${name%/} ]] || fail "$page names $name, which is not there"
   done < <(grep -oE "\`($folders)/[A-Za-z0-9_./-]*\`" <(text_of "$page") | tr -d '`' | sort -u || true)

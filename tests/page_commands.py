@@ -4,8 +4,8 @@
     python3 tests/page_commands.py TRACE_PATH PAGE
 
 A comment before a block says what it is: `<!-- file NAME -->` a file that the commands read, `<!-- runs -->` commands,
-`<!-- prints -->` what those before it print, `<!-- prints COMMAND -->` what that command prints. With
-ARCWALL_WRITE_PAGES=1 the page is given what they print instead.
+`<!-- prints -->` what those before it print, `<!-- prints COMMAND -->` what that command prints. A
+block may be indented, as in a list. With ARCWALL_WRITE_PAGES=1 the page is given what they print instead.
 """
 
 import os
@@ -13,9 +13,10 @@ import re
 import subprocess
 import sys
 import tempfile
+import textwrap
 from pathlib import Path
 
-BLOCK = re.compile(r"<!-- (file|runs|prints) ?(.*?) ?-->\n+```\w*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^( *)<!-- (file|runs|prints) ?(.*?) ?-->\n+ *```\w*\n(.*?)^ *```$", re.MULTILINE | re.DOTALL)
 
 
 def run(commands, folder, program):
@@ -41,9 +42,10 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
         for block in BLOCK.finditer(text):
-            kind, more, content = block.groups()
-            result += text[end:block.start(3)]
-            end = block.end(3)
+            indent, kind, more, content = block.groups()
+            content = re.sub(f"^{indent}", "", content, flags=re.MULTILINE)
+            result += text[end:block.start(4)]
+            end = block.end(4)
             if kind == "file":
                 (folder / "work").mkdir(exist_ok=True)
                 (folder / "work" / more).write_text(content, encoding="utf-8")
@@ -55,7 +57,7 @@ def main():
                 if expected != content and not write:
                     sys.exit(f"{page.name} does not say what is printed\n--- the page\n{content}--- printed\n{expected}")
                 content = expected
-            result += content
+            result += textwrap.indent(content, indent)
     if compared == 0:
         sys.exit(f"{page.name} shows nothing that is printed")
     if write:

@@ -14,7 +14,7 @@ namespace arcwall::sweep {
 struct CaseResult {
   bool there = false;           ///< it has been run
   std::optional<int> status{};  ///< of `trace-path run`; empty if a signal ended it
-  std::string reason{};         ///< `stop`, `min_step`, …, `wrong_input`, `crash`; see docs/sweep.md
+  std::string reason{};         ///< `stop`, `min_step`, …, `wrong_input`, `crash`; see docs/reference/sweep.md
   std::string detail{};         ///< of that reason; may be empty
   Json counts{};                ///< of result.json; null without it
   std::vector<Json> events{};   ///< as in events.json; of a curve its special points, as in curve.json

@@ -96,7 +96,7 @@ else
   prefix=$scratch/prefix
   cmake --install "$build" --prefix "$prefix" >/dev/null
 fi
-bash ../check_examples.sh extract ../../docs/library.md "$scratch/examples"
+bash ../check_examples.sh extract ../../docs/reference/library.md "$scratch/examples"
 cmake -S . -B "$scratch/build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" \
   -DRUN_DECK="$scratch/examples/1.cpp"
 cmake --build "$scratch/build"

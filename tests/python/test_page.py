@@ -1,4 +1,4 @@
-"""The programs in Python that README.md and docs/python.md show are run, and print what the pages say.
+"""The programs in Python that README.md and docs/reference/python.md show are run, and print what the pages say.
 
 A program is a block ```python; what it prints is the next block, if that is ```text. Those of a page follow each other as in
 one session, in a folder that has the decks of the examples.
@@ -17,7 +17,7 @@ matplotlib.use("Agg")
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\s*^```text\n(.*?)^```)?", re.M | re.S)
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/python.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/reference/python.md"])
 def test_programs_of_pages_print_what_they_say(page, tmp_path, monkeypatch):
     for deck in EXAMPLES.glob("*.toml"):
         shutil.copy(deck, tmp_path)
@@ -36,7 +36,7 @@ def test_programs_of_pages_print_what_they_say(page, tmp_path, monkeypatch):
 def test_the_page_names_all_there_is():
     import arcwall
 
-    page = (SOURCE / "docs/python.md").read_text()
+    page = (SOURCE / "docs/reference/python.md").read_text()
     for name in set(arcwall.__all__) - {"__version__"}:
         assert name in page, name
     for kind in (arcwall.Deck, arcwall.Path, arcwall.Curve, arcwall.SystemPath, arcwall.EventCurve, arcwall.Events):

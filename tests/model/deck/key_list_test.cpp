@@ -71,11 +71,11 @@ TEST(KeyList, HasEveryKeyOfADeckThatIsWritten) {
 
 // Run with ARCWALL_WRITE_PAGES=1 where a declaration has changed: that writes the page.
 TEST(KeyList, IsWhatThePageOnDecksShows) {
-  const std::string file = std::string(PAGES) + "/deck.md", page = text_of_file(file);
+  const std::string file = std::string(PAGES) + "/reference/deck.md", page = text_of_file(file);
   const std::string now = test::with_tables_of_keys(page);
   if (std::getenv("ARCWALL_WRITE_PAGES") != nullptr) std::ofstream(file) << now;
   EXPECT_TRUE(now == page)
-      << "docs/deck.md has other keys: ARCWALL_WRITE_PAGES=1 model_tests --gtest_filter='KeyList.*'";
+      << "docs/reference/deck.md has other keys: ARCWALL_WRITE_PAGES=1 model_tests --gtest_filter='KeyList.*'";
   for (const DeclaredKey& key : declared_keys()) {
     const bool in_braces =
         key.table.ends_with(".sine") || key.table.ends_with(".curve") || key.table.ends_with(".control") ||
@@ -84,7 +84,7 @@ TEST(KeyList, IsWhatThePageOnDecksShows) {
         key.table.ends_with(".foundation") || key.table.ends_with(".law");
     if (key.name == "*" || in_braces) continue;
     EXPECT_NE(page.find("<!-- keys of " + (key.table.empty() ? "deck" : key.table) + " -->"), std::string::npos)
-        << "docs/deck.md has no table of the keys of " << key.table;
+        << "docs/reference/deck.md has no table of the keys of " << key.table;
   }
 }
 
