@@ -8,8 +8,6 @@ here at the mesh of the deck.
 """
 
 import re
-import resource
-import statistics
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -19,7 +17,6 @@ from device_cases import devices
 from make_validation import SOURCE, cases, trace_into
 
 FOLDER = SOURCE / "docs/gallery"
-TIMED = 5  # runs of each deck, of which the median is told
 
 
 @dataclass
@@ -30,90 +27,140 @@ class Picture:
     event: str  # at which the shape is shown: its last one of this kind
     title: str
     text: str
+    label: str  # of the quantity
 
 
 PICTURES = [
-    Picture("channel-perfect", "Perfect column in a channel, theory classic", "the flat part buckles", "branch-point",
+    Picture("channel-perfect", "Perfect column in a channel, theory euler-bernoulli", "the contact zone buckles", "branch-point",
             "The perfect column",
-            "A column between two walls: it buckles, touches, lies on the wall, buckles off it at a branch point and snaps through."),
-    Picture("channel", "Column in a channel, half sine of 0.00176 cm", "load of the first touch", "contact-closes",
+            "A column between two walls buckles and touches the wall. A contact zone grows, buckles off the wall "
+            "at a bifurcation and snaps through.",
+            "Bifurcation of the contact zone"),
+    Picture("channel", "Column in a channel, half sine of 0.00176 cm", "load of first contact", "contact-closes",
             "A column in a channel",
-            "The same with an imperfection, up to a little behind the first touch."),
-    Picture("channel-thick", "Column in a channel, Essenburg's theory", "load of the first touch", "contact-closes",
+            "The same column with a half sine as imperfection, up to its first contact.",
+            "First contact"),
+    Picture("channel-thick", "Column in a channel, Essenburg's theory", "load of first contact", "contact-closes",
             "A thick column in a channel",
-            "The same column with a thickness that changes."),
+            "The same column with variable thickness (Essenburg's theory).",
+            "First contact"),
     Picture("foundation", "Bending onto a foundation, contact at nodes", "moment of first contact", "contact-spreads",
             "Bending onto a foundation",
-            "A beam bent onto a rigid foundation: a point of contact becomes a stretch, whose edges run outwards."),
+            "A beam is bent onto a rigid foundation. The contact point becomes a zone, whose ends move outwards.",
+            "Moment of first contact"),
     Picture("thick", "Thick beam on a foundation, Essenburg's theory, order 2", "moment of first contact", "contact-opens",
             "A thick beam lifts off",
-            "A thick beam on the same foundation: its middle lifts off again."),
+            "A thick beam on the same foundation: its middle lifts off again.",
+            "Moment of first contact"),
     Picture("lee", "Lee's frame", "first limit load", "turning-point",
             "Lee's frame",
-            "A frame that snaps through and back: two limit points and two turning points of the displacement."),
+            "A frame with snap-through and snap-back: two limit points and two turning points of the "
+            "displacement.",
+            "First limit load"),
     Picture("arch", "Deep arch of 215°, hinged and clamped", "first limit load", "limit-point",
             "A deep arch",
-            "An arch hinged at one end and clamped at the other, far past its first limit load."),
+            "An arch hinged at one end and clamped at the other, far beyond its first limit load.",
+            "First limit load"),
     Picture("semicircle", "Pinned semicircular arch", "load at which it sways", "branch-point",
-            "A half circle sways",
-            "A half circle sways at a branch point long before the limit load that symmetry would give it."),
-    Picture("pressed-arch", "Pinned semicircular arch under pressure, theory classic", "pressure at which it sways", "end",
-            "A half circle under pressure",
-            "Pressure stays across the axis when the arch moves. It sways at 3 EI/R³, to a side on which it is stable."),
+            "A semicircle sways",
+            "A semicircular arch sways at a bifurcation below the limit load of its symmetric path.",
+            "Bifurcation"),
+    Picture("pressed-arch", "Pinned semicircular arch under pressure, theory euler-bernoulli", "pressure at which it sways", "end",
+            "A semicircle under pressure",
+            "Follower pressure stays normal to the deformed arch. The arch sways at 3 EI/R³; the sway branch is "
+            "stable.",
+            "Bifurcation"),
     Picture("shallow-arch", "Shallow pinned circular arch", "first branch point", "limit-point",
             "A shallow arch",
-            "Branch point and limit point 0.1 % apart."),
-    Picture("williams", "Williams' toggle", "first limit load", "limit-point", "Williams' toggle",
-            "The toggle frame of 1964, a snap of a quarter of an inch."),
+            "Bifurcation and limit point are 0.1 % apart.",
+            "First bifurcation"),
+    Picture("williams", "Williams' toggle", "first limit load", "limit-point",
+            "Williams' toggle",
+            "The toggle frame of 1964, with a snap of a quarter of an inch.",
+            "First limit load"),
     Picture("truss", "Truss of two bars, Green's strain", "first limit load", "limit-point",
             "Two bars",
-            "Two bars that snap through: the smallest example there is."),
+            "Two bars snap through: the smallest example with limit points.",
+            "First limit load"),
     Picture("truss-sway", "Steep truss of two bars, strain: green", "load at which it sways", "branch-point",
             "A steep truss",
-            "A steep truss sways sideways before it snaps through."),
-    Picture("cantilever", "Cantilever rolled up by an end moment", "turn of the tip at half of the way", "end",
+            "A steep truss sways before it snaps through.",
+            "Bifurcation"),
+    Picture("cantilever", "Cantilever rolled up by an end moment", "rotation of the free end at half the moment", "end",
             "A strip rolled up",
-            "A strip rolled up into a circle by a moment."),
-    Picture("column", "Pinned column, extensible", "first buckling load", "end", "Euler's column",
-            "Euler's column, followed to where its ends meet."),
+            "A moment rolls a strip up into a circle.",
+            "Rotation of the tip at half the moment"),
+    Picture("column", "Pinned column, extensible", "first buckling load", "end",
+            "Euler's column",
+            "Euler's column, followed until its ends meet.",
+            "First buckling load"),
     Picture("roorda", "Roorda's frame, nearly inextensible", "limit load, moment 0.01 λ", "limit-point",
             "Roorda's frame",
-            "Two bars at a right angle, the frame on which imperfection sensitivity was first measured."),
-    Picture("diamond", "Diamond frame", "inwards at λ = 1", "end", "A diamond drawn out",
-            "A hinged square drawn out at two corners."),
-    Picture("snap-fit", "Snap-fit", "greatest push by the way of the nose there", "turning-point", "A snap-fit",
-            "A catch moves under a hook: the push grows up its flat flank, vanishes on its top, and is negative where the hook snaps down the steep "
-            "one. Backwards the same path is the removal, whose force is the greater by about what the steeper flank asks for."),
-    Picture("guidewire", "Guidewire in a bend", "push far in the bend", "end", "A guidewire in a bend",
-            "The tip of a wire slides along the outer wall of a bend, and the wire leans on the inner one. The push grows to what it takes to "
-            "bend each new length of wire, and stays there."),
-    Picture("drill-string", "Drill string in a bore", "weight on the bit at which it buckles", "end", "A drill string in its bore",
-            "Pressed on its bit a hanging string buckles below and leans on its bore. It buckles at a quarter of its own weight; the bore then holds it."),
-    Picture("mems-switch", "Bistable switch", "greatest force", "limit-point", "A bistable switch",
-            "A shuttle on two cosine beams snaps through onto a stop. The force falls from its peak at a sixth of the height to a negative value, "
-            "at which the stop is met before the second resting place."),
-    Picture("harvester", "Precompressed harvester", "deflection at rest", "end", "A harvester",
-            "A strip is shortened in a first stage and so bent; in a second one a load makes it snap to the other side, to a stop. "
-            "It sways at a branch point before it snaps."),
-    Picture("leaf-spring", "Leaf spring on a former", "deflection at λ = 4", "end", "A leaf spring on a former",
-            "A leaf is bent onto a round former and lies on it from the clamp on. It becomes stiffer as less of it is free, while the moment at the "
-            "clamp stays what the former's radius asks for."),
-    Picture("rail", "Heated rail", "force at which it buckles", "limit-point", "A heated rail",
-            "A rail on ballast that yields buckles sideways under heat. Behind the first limit point it would jump far out at the same "
-            "temperature, and its compression falls."),
-    Picture("pipeline", "Pipeline on the seabed", "thrust at which it lifts off", "end", "A pipeline on the seabed",
-            "A pipe that is not quite straight lies on the seabed, pressed flat by its weight but for a free span under its hump. Heat makes "
-            "a thrust, under which the crest lifts off at a limit load and jumps up."),
-    Picture("portal", "Portal with a stop", "load at which it sways", "end", "A portal with a stop",
-            "A portal frame sways under loads on its corners until a stop holds it. It then carries more, and the stop little."),
-    Picture("ring", "Ring between plates", "force at the way R/100", "end", "A ring between plates",
-            "A ring that nothing else holds is squeezed between two plates, which touch it at a point each. It might roll and slide, and "
-            "the program says that it does neither."),
-    Picture("bow", "Bow pressed onto a floor", "force at which contact spreads", "end", "A bow pressed onto a floor",
-            "The ends of a bow are pressed down to the floor, and it unrolls on it. The force grows without bounds as less of it stands off."),
-    Picture("lattice", "Lattice of curved bars", "force at which the first row gives way", "turning-point", "A lattice of curved bars",
-            "A plate presses on two rows of curved bars, which give way one after the other. Both do so at the same force, and between "
-            "them it falls to a tenth."),
+            "Two bars at a right angle: the frame on which imperfection sensitivity was first measured.",
+            "Limit load, moment 0.01 λ"),
+    Picture("diamond", "Diamond frame", "inwards at λ = 1", "end",
+            "A diamond drawn out",
+            "A hinged square is pulled at two corners.",
+            "Displacement inwards at λ = 1"),
+    Picture("snap-fit", "Snap-fit", "greatest push by the way of the nose there", "turning-point",
+            "A snap-fit",
+            "A catch moves under a hook. The push increases along the flat flank, vanishes on its top and becomes"
+            " negative on the steep flank. Followed backwards, the path describes removal, which needs a larger "
+            "force.",
+            "Maximum push"),
+    Picture("guidewire", "Guidewire in a bend", "push far in the bend", "end",
+            "A guidewire in a bend",
+            "The tip of a wire slides along the outer wall of a bend, and the wire leans on the inner wall. The "
+            "push increases to what bends each new length of wire, and stays constant.",
+            "Push far in the bend"),
+    Picture("drill-string", "Drill string in a bore", "weight on the bit at which it buckles", "end",
+            "A drill string in its bore",
+            "A hanging string is pressed on its bit and buckles at its lower end, at a quarter of its own weight."
+            " The bore then supports it.",
+            "Weight on the bit at buckling"),
+    Picture("mems-switch", "Bistable switch", "greatest force", "limit-point",
+            "A bistable switch",
+            "A shuttle on two cosine beams snaps through onto a stop. The force decreases from its maximum at a "
+            "sixth of the height to a negative value.",
+            "Maximum force"),
+    Picture("harvester", "Precompressed harvester", "deflection at rest", "end",
+            "A harvester",
+            "A strip is shortened in a first load step and so buckles. In a second step a load makes it snap to "
+            "the other side, onto a stop. It sways at a bifurcation before.",
+            "Deflection at rest"),
+    Picture("leaf-spring", "Leaf spring on a former", "deflection at λ = 4", "end",
+            "A leaf spring on a former",
+            "A leaf is bent onto a round former; a contact zone grows from the clamp. The leaf becomes stiffer, "
+            "and the moment at the clamp stays constant.",
+            "Deflection at λ = 4"),
+    Picture("rail", "Heated rail", "force at which it buckles", "limit-point",
+            "A heated rail",
+            "A rail on yielding ballast buckles sideways when heated. Beyond the first limit point it would jump "
+            "far out at the same temperature.",
+            "Buckling force"),
+    Picture("pipeline", "Pipeline on the seabed", "thrust at which it lifts off", "end",
+            "A pipeline on the seabed",
+            "A pipe with a hump rests on the seabed, with one free span. Heat causes a thrust. The crest lifts "
+            "off at a limit load and jumps up.",
+            "Thrust at lift-off"),
+    Picture("portal", "Portal with a stop", "load at which it sways", "end",
+            "A portal with a stop",
+            "A portal frame sways under loads on its corners until a stop supports it.",
+            "Sway load"),
+    Picture("ring", "Ring between plates", "force at the way R/100", "end",
+            "A ring between plates",
+            "An unconstrained ring is squeezed between two plates, with one contact point each.",
+            "Force at displacement R/100"),
+    Picture("bow", "Bow pressed onto a floor", "force at which contact spreads", "end",
+            "A bow pressed onto a floor",
+            "The ends of a bow are pressed down to the floor, and a contact zone grows. The force increases "
+            "without bound.",
+            "Force at the start of the zone"),
+    Picture("lattice", "Lattice of curved bars", "force at which the first row gives way", "turning-point",
+            "A lattice of curved bars",
+            "A plate presses on two rows of curved bars, which buckle one after the other at the same force. "
+            "Between them the force drops to a tenth.",
+            "Buckling force of the first row"),
 ]
 
 
@@ -153,35 +200,19 @@ def entry(program: str, picture: Picture, known: dict) -> str:
     case = known[picture.case]
     quantity = next(q for q in case.quantities if q.what == picture.quantity)
     with tempfile.TemporaryDirectory() as folder:
-        seconds = []
-        for _ in range(TIMED):
-            before = processor_seconds()
-            traced = trace_into(folder, program, SOURCE / case.deck, [])
-            seconds.append(processor_seconds() - before)
+        traced = trace_into(folder, program, SOURCE / case.deck, [])
         svg = compose(*drawings(Path(folder, "report.html").read_text(), picture.event, traced.events))
     (FOLDER / f"{picture.name}.svg").write_text(svg)
     return (f"## {picture.title}\n\n{picture.text}\n\n![load and shape](gallery/{picture.name}.svg)\n\n"
-            f"`{case.deck}`, {1e3 * statistics.median(seconds):.0f} ms. {quantity.what[0].upper() + quantity.what[1:]}: "
-            f"**{quantity.of(traced):.10g}**, reference {quantity.reference:.10g} ({quantity.origin}).\n")
+            f"`{case.deck}`. {picture.label}: **{quantity.of(traced):.6g}**, reference {quantity.reference:.6g}.\n")
 
 
 HEAD = """# Gallery
 
-What the report of each run shows: the load over the first monitor, with the events, and the shape at one of them. The devices at
-the end come with the program (`trace-path examples`). The page is
-written by `docs/make_gallery.py`; more quantities and meshes are in [validation.md](validation.md). Times are the processor's of whole
-processes with their falls and reports, the median of {timed} ({processor}).
+*Examples.* The report of each run: load over the first monitor, with events, and the shape at one of them. Copy the decks of
+`examples/` with `trace-path examples`. [Validation](validation.md) has the origin of the references, more quantities and more
+meshes. `docs/make_gallery.py` writes this page.
 """
-
-
-def processor_seconds() -> float:
-    """Of all that has been started and has ended."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
-
-
-def processor() -> str:
-    return re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text()).group(1)
 
 
 def main() -> None:
@@ -190,8 +221,7 @@ def main() -> None:
     program = str(Path(sys.argv[1]).resolve())
     FOLDER.mkdir(exist_ok=True)
     known = {case.title: case for case in [*cases(), *devices()]}
-    head = HEAD.format(timed=TIMED, processor=processor())
-    page = "\n".join([head, *(entry(program, picture, known) for picture in PICTURES)])
+    page = "\n".join([HEAD, *(entry(program, picture, known) for picture in PICTURES)])
     (SOURCE / "docs/gallery.md").write_text(page)
 
 
