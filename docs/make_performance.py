@@ -157,7 +157,7 @@ GOALS = [
     Goal("the same with 2000 elements", 1.5, against_yardstick(2000)),
     Goal("OpenSees' time per iteration and element, over arcwall's, 200 elements (by its ratio to the yardstick)", 3.0,
          by_ratio_against_arcwall("OpenSees"), at_least=True),
-    Goal("LOCA's over arcwall's (likewise)", 4.0, by_ratio_against_arcwall("LOCA"), at_least=True),
+    Goal("LOCA's over arcwall's (by its ratio too)", 4.0, by_ratio_against_arcwall("LOCA"), at_least=True),
     Goal("Octave's over arcwall's", 10.0, peer_against_arcwall("Octave"), at_least=True),
     Goal("SciPy's over arcwall's", 10.0, peer_against_arcwall("SciPy"), at_least=True),
     Goal("Lee's frame to v = 90 cm: points at default settings", 130, lambda f: f.of("time_split", "lee", 200, "points")),
@@ -171,17 +171,17 @@ GOALS = [
          lambda f: f.of("trace-path", "channel", 80, "process")),
     Goal("foundation: GetFEM's path over arcwall's", 50.0, foundation_against_getfem, at_least=True),
     Goal("time per iteration and element: 100000 elements over 100", 1.5, growth),
-    Goal("the same: the greatest over the least, of 100 to 100000 elements", 1.5, spread),
+    Goal("the same: maximum over minimum, of 100 to 100000 elements", 1.5, spread),
     Goal("memory per node of Lee's frame [kB]", 1.2, memory_a_node),
     Goal("channel, 80 elements: a matrix with closed contacts, over one with open ones, by unknowns", 1.3,
          closed_against_open("channel", 80)),
     Goal("the same with 1280 elements", 1.3, closed_against_open("channel", 1280)),
-    Goal("the same as a whole: where contacts slide, the mesh has up to twice as many elements as before they close", 1.3,
+    Goal("the same as a whole: moving contact has up to twice as many elements after contact", 1.3,
          closed_against_open("channel", 1280, "per linearization")),
     Goal("channel at nodes, 80 elements: a matrix with closed contacts, over one with open ones", 1.3,
          closed_against_open("channel at nodes", 80)),
     Goal("the same with 1280 elements", 1.3, closed_against_open("channel at nodes", 1280)),
-    Goal("the same: time per change of contact and element [µs]", 3.0, contact_time("channel at nodes", 1280)),
+    Goal("the same: time per contact change and element [µs]", 3.0, contact_time("channel at nodes", 1280)),
     Goal("the same with 80 elements", 3.0, contact_time("channel at nodes", 80)),
     *(Goal(f"square frame, {size} unknowns: factorization and two solutions, over the best of CHOLMOD's called directly",
            1.1, solver_against_cholmod(size)) for size in (10000, 100000, 1000000)),
@@ -196,9 +196,8 @@ def goals(f: Figures) -> str:
     if closed_against_open("channel", 1280)(f):
         text += """
 
-Closed contacts that slide make a matrix dearer in two ways: by a border, which the figures by unknowns show, and by a finer mesh,
-as stretches get elements of their own while the parts beside them keep theirs down to a quarter of the size asked for. What
-merging these earlier would cost is in docs/decisions.md ("Parts beside a growing stretch")."""
+Moving contact makes a matrix more expensive by a border, which the figures by unknowns show, and by a finer mesh. Contact zones get
+elements of their own, and the parts beside them keep theirs ([decisions](decisions.md), "Parts beside a growing contact zone")."""
     return text
 
 
@@ -220,15 +219,13 @@ def lee(f: Figures) -> str:
                      of("path") / path if path else None, process / path if process and path else None])
     return """## Lee's frame
 
-The yardstick (`benchmarks/chain_yardstick.cpp`) is written by hand for this frame and compiled for the machine it runs on; it
-finds no events, counts no unstable directions and takes some 200 steps for the path. The time of a path, its events
-included, is divided by all of Newton's iterations, those of failed attempts and of located events included, as the
-yardstick's and the peers' is; the fifth column divides by those of accepted steps alone. `arcwall` forms a matrix more than it
-has iterations where it looks at a converged point and where it locates events; *per matrix* counts these. Both programs trace
-paths of up to 5000 elements five times; the least time counts. With 50000 elements and more the yardstick does not
-arrive: the rounded diagonal of its matrix is as stiff as the frame.
+The yardstick (`benchmarks/chain_yardstick.cpp`) is written by hand for this frame and compiled for the machine it runs on. It
+locates no events, counts no unstable directions and takes some 200 steps. The time of a path, events included, is divided by all
+Newton iterations, events and failed attempts included. The fifth column divides it by those of accepted steps. *Per matrix* counts all
+matrices: `arcwall` forms more at converged points and for events. Up to 5000 elements the minimum of five runs counts. From 50000
+elements on the yardstick fails: the rounded diagonal of its matrix is as stiff as the frame.
 
-""" + table(["elements", "yardstick, µs per iteration and element", "arcwall, µs likewise", "× per iteration",
+""" + table(["elements", "yardstick, µs per iteration and element", "arcwall, the same", "× per iteration",
              "× per iteration of accepted steps", "× per matrix", "points",
              "iterations a point", "matrices an iteration", "path, × the yardstick's",
              "process of trace-path, × the yardstick's path"], rows)
@@ -244,7 +241,7 @@ def parts(f: Figures) -> str:
         rows.append([str(n), *(1e6 * one if one else None for one in seconds), yardstick])
     return """## The parts of an iteration alone
 
-On Lee's frame in the middle of its snap, again and again at one state [µs per element].
+Lee's frame in the middle of its snap, repeated at one state [µs per element].
 
 """ + table(["elements", *names.values(), "yardstick, whole iteration"], rows) if rows else ""
 
@@ -261,7 +258,7 @@ def peers(f: Figures) -> str:
     text = table(["peer, time per iteration and element", "× the yardstick", "× arcwall"], rows)
     other = []
     if value := f.ratio(("AUTO", "column between walls", 0, "path"), ("time_split", "channel", 20, "path")):
-        other.append(["AUTO, column between walls, 20 intervals on half of it, all states of contact told by hand; arcwall: "
+        other.append(["AUTO, column between walls, 20 intervals on half of it, all contact states given by hand; arcwall: "
                       "channel, 20 elements, contact found", value])
     if value := foundation_against_getfem(f):
         other.append(["GetFEM, beam on a foundation, 40 × 4 plane elements on half of it, contact found, small displacements; "
@@ -273,14 +270,13 @@ def peers(f: Figures) -> str:
         text += f"\n\nNot installed: {', '.join(missing)}."
     return """## Peers
 
-Ratios above 1: the peer takes longer. OpenSees and LOCA stand here by their ratios to the yardstick, which were measured side by
-side elsewhere; all others ran beside arcwall. SciPy and Octave do what the yardstick does, written as one would there.
+Ratios above 1: the peer takes longer. OpenSees and LOCA have ratios to the yardstick that were measured elsewhere; all others ran beside
+arcwall. SciPy and Octave repeat the yardstick's method.
 
 """ + text
 
 
-PARTS = {"assembly": "F, K, F_λ", "factorization": "LDLᵀ", "solution": "solutions", "side conditions": "contact",
-         "rest": "all else"}
+PARTS = {"assembly": "F, K, F_λ", "factorization": "LDLᵀ", "solution": "solutions", "side conditions": "contact"}
 
 
 def split(f: Figures) -> str:
@@ -292,18 +288,15 @@ def split(f: Figures) -> str:
         start = f.of("time_split", "lee", 20, "peak memory")
         large = of("nodes") >= 1000 and start is not None
         rows.append([case + (f", {size}" if size else ""), of("path"), *(f"{100 * of(f'share {part}'):.0f}" for part in PARTS),
-                     f"{100 * max(0.0, 1 - own):.0f}", str(int(of("points"))), str(int(of("events"))),
-                     str(int(of("contact changes"))), (of("peak memory") - start) / of("nodes") if large else None])
+                     f"{100 * max(0.0, 1 - own):.0f}", (of("peak memory") - start) / of("nodes") if large else None])
     return """## Where the time goes
 
-Shares of tracing in percent, the path's events included and outputs left out. *K for events* is the share of matrices that
-belong to no step: those formed to locate events, to count unstable directions and to leave corners. *LDLᵀ* includes the two
-solutions of Newton's line, which are found along with it; *solutions* are all others. Sizes are elements, of
-the star and the square frame unknowns. *kB a node* is the memory above that of Lee's frame with 20 elements.
-Paths of up to 5000 elements are timed without looking at the clock for their parts, and traced once more for these.
+Shares of tracing in percent, events included, outputs excluded; the rest is everything else. *K for events* is the share of matrices for
+events, stability counts and active-set changes. *LDLᵀ* includes the two solves of each iteration; *solutions* are all others. Sizes
+are elements, for star and square frame unknowns. *kB a node* is the memory above that of Lee's frame with 20 elements.
+Up to 5000 elements the parts are timed in a second run.
 
-""" + table(["case", "path [s]", *(f"{part} [%]" for part in PARTS.values()), "K for events [%]", "points", "events",
-             "changes of contact", "kB a node"], rows)
+""" + table(["case", "path [s]", *(f"{part} [%]" for part in PARTS.values()), "K for events [%]", "kB a node"], rows)
 
 
 def processes(f: Figures) -> str:
@@ -319,8 +312,8 @@ def processes(f: Figures) -> str:
 `trace-path run`, with report, shapes and all other files.
 
 """ + table(["case", "process [s]", "of it tracing", "peak memory [MB]"], rows) + (
-        f"\n\nMemory grows with Lee's frame by {shown(per_node[0])} kB a node while tracing alone, and by {shown(per_node[1])} kB\n"
-        "in the program, which keeps all points of the path for its files." if None not in per_node else "")
+        f"\n\nLee's frame takes {shown(per_node[0])} kB a node while tracing. The program takes {shown(per_node[1])} kB, since it\n"
+        "keeps all points of the path for its files." if None not in per_node else "")
 
 
 def frames(f: Figures) -> str:
@@ -347,15 +340,15 @@ def machine(f: Figures) -> str:
     ours = f.of("time_split", "lee", 2000, PER_ITERATION)
     if None in (multiply_add, bandwidth, division, least, ours):
         return ""
-    limits = [("arithmetic: flops at the greatest rate of vectors", 1e6 * YARDSTICK_FLOPS / multiply_add),
+    limits = [("arithmetic: flops at the maximum rate of vectors", 1e6 * YARDSTICK_FLOPS / multiply_add),
               ("memory: bytes at the bandwidth of main memory", 1e6 * YARDSTICK_BYTES / bandwidth),
               ("waiting: divisions, one after the other", 1e6 * YARDSTICK_DIVISIONS * division)]
     rows = [[what, limit / least, limit / ours] for what, limit in limits]
     return f"""## Distance to the machine's limits
 
-Lee's frame with 2000 elements. What the yardstick does per iteration and element is counted: about
-{YARDSTICK_FLOPS} operations, {YARDSTICK_BYTES} bytes if each number goes by once, {YARDSTICK_DIVISIONS} divisions that wait for each other.
-The shares say how much of the time these alone would take.
+Lee's frame with 2000 elements. Per iteration and element the yardstick needs about
+{YARDSTICK_FLOPS} operations, {YARDSTICK_BYTES} bytes if each number is read once, and {YARDSTICK_DIVISIONS} dependent divisions.
+The shares are those of the time that these alone would take.
 
 """ + table(["limit", "share of the yardstick's time", "share of arcwall's"], rows) + frame_rates(f, multiply_add)
 
@@ -369,13 +362,13 @@ def frame_rates(f: Figures, multiply_add: float) -> str:
         if operations and seconds:
             rows.append([str(size), operations / seconds / multiply_add])
     return ("\n\nThe factorization of the square frame, by the operations that it needs in CHOLMOD's order:\n\n"
-            + table(["unknowns", "share of the greatest rate of vectors"], rows)) if rows else ""
+            + table(["unknowns", "share of the maximum rate of vectors"], rows)) if rows else ""
 
 
 HEAD = """# Performance
 
-Written by `docs/make_performance.py` from what `bash benchmarks/run.sh --peers` measured in one run. Times are the least CPU times
-of several repetitions; they stand beside ratios, which say more. Nothing here decides a test.
+Written by `docs/make_performance.py` from what `bash benchmarks/run.sh --peers` measured in one run. Times are the minimum CPU
+times of several repetitions. No test depends on them.
 """
 QUICK = "This was a run with `--quick`: the large sizes are missing."
 SKIPPED = "The greatest sizes, of 10⁶ unknowns, were left out of this run by `--skip`."
