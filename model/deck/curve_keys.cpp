@@ -47,21 +47,21 @@ void keys_of_curve(Keys& keys, EventToFollow& curve) {
   curve.position = keys.position();
   keys.table(
       "event", Form::in_line, [&](Keys& event) { event_keys(event, curve); },
-      "the event of the traced path that is followed: `{ kind = \"limit-point\", number = 1 }`");
+      "the event to follow: `{ kind = \"limit-point\", number = 1 }`");
   keys.text(optional("parameter", "none"), curve.parameter,
-            "the number of the deck that varies, as in `--set`: `\"wall.upper.profile.z\"`");
+            "the key that varies, as in `--set`: `\"wall.upper.profile.z\"`");
   keys.numbers(optional("range", "none"), curve.range, unit::none,
                "of `parameter`: `[low, high]`, with the deck's own value inside");
   keys.number(optional("step", "1/100 of range"), curve.step, unit::none, positive,
-              "increment of the number of the first predictor");
-  keys.integer(optional("max_points"), curve.max_points, {.low = 1}, "on each side of the deck's own value");
+              "increment of the parameter in the first predictor");
+  keys.integer(optional("max_points"), curve.max_points, {.low = 1},
+               "limit on points on each side of the deck's own value");
   keys.numbers(optional("output_at", "none"), curve.output_at, unit::none,
-               "values of the number each of which is a point");
-  keys.any_texts(
-      optional("worst", "none"), curve.worst,
-      "instead of `parameter`: numbers of the deck, the combination of which is sought that lowers the event most");
+               "values of the parameter at which a point is output");
+  keys.any_texts(optional("worst", "none"), curve.worst,
+                 "instead of `parameter`: keys whose combination is sought that lowers the event most");
   keys.number(optional("radius", "none"), curve.radius, unit::none, positive,
-              "of `worst`: root of the sum of squares of what changes the numbers");
+              "of `worst`: norm of the changes (root of the sum of squares)");
   if (keys.reads()) check_what_varies(keys, curve);
 }
 

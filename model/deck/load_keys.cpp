@@ -17,14 +17,14 @@ bool support_key(Keys& keys, const Key& key, Support& support, const Deck& deck)
 }
 
 void prescribed_keys(Keys& keys, Prescribed& moved, const Deck& deck) {
-  if (keys.name("at", moved.point, Named::point, "a point that is moved; every direction that is given is held") &&
+  if (keys.name("at", moved.point, Named::point, "a point; every given direction is prescribed") &&
       !ends_a_member(deck, moved.point))
     keys.report("at", "no member ends at point " + moved.point, "name a point at the end of a member");
   keys.number(optional("x", "free"), moved.x, unit::length, any_number, "displacement");
   keys.number(optional("z", "free"), moved.z, unit::length, any_number, "displacement");
   keys.number(optional("rotation", "free"), moved.rotation, unit::none, any_number,
               "of the rigidly joined member ends [rad]");
-  keys.flag(optional("constant"), moved.constant, "held while λ varies, instead of multiplied by λ");
+  keys.flag(optional("constant"), moved.constant, "constant, not scaled by λ");
   if (!keys.has("x") && !keys.has("z") && !keys.has("rotation"))
     keys.report("at", "nothing is prescribed", "give at least one of x, z and rotation");
 }
@@ -35,7 +35,7 @@ void frame_belongs_to_distributed(Keys& keys) {
 }
 
 void point_load_keys(Keys& keys, PointLoad& load) {
-  keys.place("at", load.at, "a place: load at a node, with at least one of `force` and `moment`");
+  keys.place("at", load.at, "location of a point load, with `force`, `moment` or both");
   keys.vector(optional("force"), load.force, unit::force, "`[x, z]`");
   keys.number(optional("moment"), load.moment, unit::moment, any_number,
               "does work on the rotation of the section, at any size");
@@ -60,10 +60,9 @@ void member_load_keys(Keys& keys, MemberLoad& load) {
     keys.ignore({"pressure", "temperature", "gradient"});  // known where it is asked which keys there are
     distributed.presence = Presence::optional;
   }
-  keys.vector(distributed, load.distributed, unit::line_load, "`[x, z]`, dead, by length of the undeformed axis");
-  keys.word(
-      optional("frame"), load.frame, frame_words,
-      "of `distributed`: `\"member\"` gives it along the stress-free axis at each place and across it, to the left");
+  keys.vector(distributed, load.distributed, unit::line_load, "`[x, z]`, dead, per length of the undeformed axis");
+  keys.word(optional("frame"), load.frame, frame_words,
+            "of `distributed`: `\"member\"` gives components along the undeformed axis and across it, to the left");
   for (const char* key : {"force", "moment"})
     keys.applies(false, key, "belongs to a load at a point", "write `at` instead of `on`, or give distributed");
 }
@@ -87,11 +86,9 @@ void check_heat(Keys& keys, const Deck& deck, const Heat& heat) {
 void heat_keys(Keys& keys, Heat& heat, const Deck& deck) {
   const bool on = keys.lists() || keys.name("on", heat.member, Named::member, "");
   keys.number(optional("temperature"), heat.temperature, unit::none, any_number,
-              "instead of `distributed`: change of temperature of the whole member [degree]");
-  keys.number(
-      optional("gradient"), heat.gradient, unit::curvature, any_number,
-      "change of temperature [degree] by length across the height, hotter to the left of the direction of travel; "
-      "not of trusses");
+              "instead of `distributed`: change of temperature of the member [degree]");
+  keys.number(optional("gradient"), heat.gradient, unit::curvature, any_number,
+              "temperature difference per length across the height [degree], hotter on the left; not for trusses");
   for (const char* key : {"distributed", "force", "moment"})
     keys.applies(keys.lists(), key, "does not go together with a temperature", "write two loads");
   frame_belongs_to_distributed(keys);
@@ -100,10 +97,9 @@ void heat_keys(Keys& keys, Heat& heat, const Deck& deck) {
 
 void pressure_keys(Keys& keys, Pressure& load, const Deck& deck) {
   const bool on = keys.lists() || keys.name("on", load.member, Named::member, "");
-  keys.number(
-      "pressure", load.pressure, unit::line_load, any_number,
-      "instead of `distributed`: by length of the deformed axis, across which it stays; acts to the right of the "
-      "direction of travel; not of trusses");
+  keys.number("pressure", load.pressure, unit::line_load, any_number,
+              "instead of `distributed`: follower pressure, normal to the deformed axis and per deformed length; "
+              "positive to the right; not for trusses");
   for (const char* key : {"distributed", "temperature", "gradient", "force", "moment"})
     keys.applies(keys.lists(), key, "does not go together with a pressure", "write two loads");
   frame_belongs_to_distributed(keys);
@@ -132,7 +128,7 @@ void load_keys(Keys& keys, Load& load, const Deck& deck) {
     if ((heats && !presses) || keys.lists())
       keys.alternative<Heat>("on", load.action, [&](Heat& action) { heat_keys(keys, action, deck); });
   }
-  keys.flag(optional("constant"), load.constant, "held while λ varies, instead of multiplied by λ");
+  keys.flag(optional("constant"), load.constant, "constant, not scaled by λ");
 }
 
 bool is_zero(const PointLoad& load) { return load.force == Vector{} && load.moment == 0.0; }

@@ -69,12 +69,10 @@ void order_key(Keys& keys, Member& member) {
 }
 
 void theory_keys(Keys& keys, Member& member) {
-  const bool right = keys.word(
-      "theory", member.theory, theory_words,
-      "`\"euler-bernoulli\"`: Euler-Bernoulli beam of any displacement and rotation; `\"elastica\"`: the same beam to "
-      "a "
-      "higher order; `\"truss\"`: bar with axial force only; `\"reissner\"`: Reissner's beam, flexible in shear; "
-      "`\"essenburg\"`: flexible in shear and in its thickness");
+  const bool right =
+      keys.word("theory", member.theory, theory_words,
+                "`\"euler-bernoulli\"`: bends and extends; `\"elastica\"`: the same at higher order; `\"reissner\"`: "
+                "flexible in shear; `\"essenburg\"`: flexible in shear and thickness; `\"truss\"`: axial force only");
   if (keys.reads() && !right) return keys.ignore({"order", "along", "strain"});
   order_key(keys, member);
   if (keys.applies(member.theory == Theory::essenburg, "along", "belongs to theory essenburg", "remove it"))
@@ -104,8 +102,7 @@ void material_and_section_keys(Keys& keys, const Deck& deck, Member& member) {
 void arc_keys(Keys& keys, Arc& arc, const std::optional<Ends>& ends) {
   constexpr double tolerance = 1e-12;  // of the chord: below, the radius is beyond the resolution of the coordinates
   const bool right = keys.vector(optional("via", "straight"), arc.via, unit::length,
-                                 "the axis is the circular arc from `from` through this point, which is off the "
-                                 "straight line, to `to`");
+                                 "the axis is the circular arc from `from` through this point to `to`");
   if (!right || !ends) return;
   const double chord = distance(ends->from, ends->to);
   const Vector c{(ends->to.x - ends->from.x) / chord, (ends->to.z - ends->from.z) / chord};
@@ -169,8 +166,7 @@ void axis_keys(Keys& keys, const std::optional<Ends>& ends, Member& member) {
         [&](Keys& of) {
           if (curve_keys(of, curve.x, curve.z) && ends) check_curve(of, curve, *ends);
         },
-        "the axis is the interpolating cubic spline over the cumulative chord length, from `from` to `to`; its end "
-        "conditions are \"not a knot\"");
+        "the axis is the interpolating cubic spline over the chord length, with \"not a knot\" ends");
   });
 }
 
@@ -184,7 +180,7 @@ void imperfection_keys(Keys& keys, Imperfection& imperfection) {
 // An array of tables, or one table alone.
 void imperfections_key(Keys& keys, Member& member) {
   const Key key = optional("imperfection", "none");
-  const char* meaning = "a table, or an array of tables, which add; `shape` is `\"sine\"`";
+  const char* meaning = "a table, or an array of tables that add up; `shape` is `\"sine\"`";
   if (keys.holds_array(key.name)) {
     keys.tables(key, member.imperfections, imperfection_keys, meaning);
     return;
@@ -206,7 +202,7 @@ void hinge_key(Keys& keys, Member& member) {
   if (member.hinge_from) ends.push_back(End::from);
   if (member.hinge_to) ends.push_back(End::to);
   keys.words(optional("hinge", "none"), ends, end_words, "is no end of a member",
-             "`[\"from\"]`, `[\"to\"]` or both: ends that transmit no moment");
+             "`[\"from\"]`, `[\"to\"]` or both: ends without moment");
   member.hinge_from = std::find(ends.begin(), ends.end(), End::from) != ends.end();
   member.hinge_to = std::find(ends.begin(), ends.end(), End::to) != ends.end();
 }
@@ -217,7 +213,7 @@ void member_keys(Keys& keys, Member& member, const Deck& deck, const PointsByNam
   theory_keys(keys, member);
   material_and_section_keys(keys, deck, member);
   keys.integer("elements", member.elements, {.low = 1, .high = most_elements},
-               "number of elements, ≥ 1; a truss must have 1, since more would be a chain of hinges");
+               "number of elements, ≥ 1; a truss has 1, since more would be a chain of hinges");
   axis_keys(keys, ends, member);
   hinge_key(keys, member);
   imperfections_key(keys, member);

@@ -130,9 +130,9 @@ void outline_keys(Keys& keys, Wall& wall) {
     keys.table(
         optional("outline", "none"), Form::dotted,
         [&](Keys& of) {
-          const Option<HalfPlaneOutline> half_plane{"half-plane",
-                                                    "all behind a straight line; the normal points to the body",
-                                                    [&](HalfPlaneOutline& plane) { half_plane_keys(of, plane); }};
+          const Option<HalfPlaneOutline> half_plane{
+              "half-plane", "solid on one side of a straight line; the normal points to the structure",
+              [&](HalfPlaneOutline& plane) { half_plane_keys(of, plane); }};
           const Option<CircleOutline> circle{"circle", "",
                                              [&](CircleOutline& round) { circle_outline_keys(of, round); }};
           const Option<PolylineOutline> polyline{
@@ -150,7 +150,7 @@ void outline_keys(Keys& keys, Wall& wall) {
   const bool is_polyline = keys.lists() || (wall.outline && std::holds_alternative<PolylineOutline>(*wall.outline));
   if (!keys.applies(is_polyline, "corner_radius", "belongs to an outline of type polyline", "remove it")) return;
   const bool right = keys.number(optional("corner_radius"), wall.corner_radius, unit::length, not_negative,
-                                 "of the arcs that round the corners of a polyline; 0: sharp ones");
+                                 "radius of rounded corners of a polyline; 0: sharp");
   if (!right && keys.has("corner_radius")) return;
   if (!keys.reads()) return;
   const auto& outline = std::get<PolylineOutline>(*wall.outline);

@@ -38,7 +38,7 @@ bool bounds_key(Keys& keys, const Key& key, StopBounds& bounds) {
 // One word, or an array of them.
 void stop_event_key(Keys& keys, Stop& stop) {
   const Key key = optional("event", "none");
-  const char* meaning = "the first event of this kind, or of one of an array of kinds, ends the branch";
+  const char* meaning = "kind of event, or array of kinds, at which the branch ends";
   if (keys.holds_array(key.name)) {
     keys.words(key, stop.events, stop_event_words, "is not one of the words for this key", meaning);
   } else {
@@ -51,9 +51,8 @@ void stop_keys(Keys& keys, Stop& stop) {
   keys.entries(stop.bounds, &StopBounds::name,
                [&](const Key& key, StopBounds& bounds) { return bounds_key(keys, key, bounds); },
                {"contacts", "event"});
-  keys.integer(
-      optional("contacts", "none"), stop.contacts, {.low = 1},
-      "ends the branch at the change of contact that leaves at least so many closed, counted as in `path.csv`");
+  keys.integer(optional("contacts", "none"), stop.contacts, {.low = 1},
+               "number of closed contacts, counted as in `path.csv`, at which the branch ends");
   stop_event_key(keys, stop);
 }
 
@@ -79,15 +78,15 @@ void step_keys(Keys& keys, Path& path) {
   keys.number(optional("step"), path.step, unit::none, not_zero,
               "increment of λ of the first predictor; its sign is the direction");
   const bool min =
-      keys.number(optional("min_step"), path.min_step, unit::none, positive, "arc length below which the branch ends");
+      keys.number(optional("min_step"), path.min_step, unit::none, positive, "arc length below which a branch ends");
   const bool max = keys.number(optional("max_step"), path.max_step, unit::none, positive,
-                               "greatest motion of the structure in a step, as a part of its size");
+                               "maximum motion of the structure in a step, as a fraction of its size");
   const bool both_right = min == keys.has("min_step") && max == keys.has("max_step");
   if (both_right && path.max_step < path.min_step)
     keys.report(keys.has("max_step") ? "max_step" : "min_step",
                 "max_step = " + round_trip(path.max_step) + " is less than min_step = " + round_trip(path.min_step),
                 "make max_step at least min_step");
-  keys.integer(optional("max_points"), path.max_points, {.low = 1}, "then the run ends with status 6");
+  keys.integer(optional("max_points"), path.max_points, {.low = 1}, "limit on points; the run ends with status 6");
   if (keys.has("max_points")) path.max_points_given.in_deck = true;
 }
 
@@ -118,13 +117,12 @@ bool output_at_key(Keys& keys, const Key& output_at, std::vector<OutputValues>& 
 
 void search_keys(Keys& keys, Path& path) {
   keys.flag(optional("search"), path.search,
-            "equilibria are looked for that are on no traced branch, and traced: see [answers.md](answers.md)");
+            "search for disconnected branches and trace them ([how-to](../how-to/disconnected-branches.md))");
   keys.numbers(optional("search_at", "five values over the range of the events"), path.search_at, unit::none,
-               "values of λ at which this is done");
+               "load factors of the search");
   keys.integer(optional("search_guesses"), path.search_guesses, {.low = 1, .high = 1000000},
-               "guesses at each of these values");
-  keys.integer(optional("search_seed"), path.search_seed, {.low = 0},
-               "another number makes other guesses; the same one the same, to the last bit");
+               "initial guesses per load factor");
+  keys.integer(optional("search_seed"), path.search_seed, {.low = 0}, "seed of the guesses; results repeat exactly");
 }
 
 void check_search(Keys& keys, const Path& path) {
@@ -149,16 +147,13 @@ void check_search(Keys& keys, const Path& path) {
 
 void path_keys(Keys& keys, Path& path) {
   path.position = keys.position();
-  keys.word(
-      optional("method"), path.method, path_method_words,
-      "`\"load\"`, `\"displacement\"`, `\"riks\"` (fixed normal plane), `\"normal-plane\"` (updated), "
-      "`\"cylindrical\"`, `\"spherical\"` (both after Crisfield), `\"pseudo-arclength\"`. `\"incremental\"`: load "
-      "increments without iteration through `output_at.lambda`, subdivided to at most `step`; results depend on them "
-      "(theory.md, section 10)");
+  keys.word(optional("method"), path.method, path_method_words,
+            "`\"load\"`, `\"displacement\"`, `\"riks\"` (fixed normal plane), `\"normal-plane\"` (updated), "
+            "`\"cylindrical\"`, `\"spherical\"` (both Crisfield), `\"pseudo-arclength\"`; `\"incremental\"`: load "
+            "increments without iteration through `output_at.lambda`, subdivided to at most `step`");
   const bool names_lambda = output_at_key(
       keys, optional("output_at", "none"), path.output_at,
-      "values of λ or of monitors at each of which there is a point of `path.csv`: `{ lambda = [0.4], mid = "
-      "[-0.05] }`");
+      "values of λ or of monitors at which an exact path point is output: `{ lambda = [0.4], mid = [-0.05] }`");
   keys.part("control", path.control, [&](Control& control) {
     keys.table(
         optional("control", "none"), Form::dotted, [&](Keys& of) { control_keys(of, control); },
@@ -166,26 +161,23 @@ void path_keys(Keys& keys, Path& path) {
   });
   step_keys(keys, path);
   keys.word(optional("branches"), path.branches, branches_words,
-            "which branch is followed from a branch point: `\"primary\"`, `\"most-stable\"` or `\"all\"`, see below");
-  keys.integer(optional("depth"), path.depth, {}, "of `\"all\"`: branches of branches");
+            "branch switching at bifurcations: `\"primary\"`, `\"most-stable\"` or `\"all\"`");
+  keys.integer(optional("depth"), path.depth, {}, "of `\"all\"`: generations of branches");
   keys.names(optional("watch", "none"), path.watch, Named::monitor, EmptyList::means_none,
              "monitors whose turning points are events (`turning-point`)");
-  keys.word(
-      optional("events"), path.events, events_words,
-      "`\"locate\"`: limit points and turning points become points of the path; `\"detect\"`: reported at the end "
-      "of the step that holds them; `\"none\"`: not looked for. Changes of contact are always points of the path");
-  keys.word(
-      optional("equilibrium_family"), path.equilibrium_family, equilibrium_family_words,
-      "of moving contact points, where equilibria form a one-parameter family, since only the sum of the lengths of "
-      "several contact zones is determined: `\"symmetric\"` continues with the one in which adjacent zones grow "
-      "equally, `\"stop\"` ends the branch with the reason `equilibrium_family`");
+  keys.word(optional("events"), path.events, events_words,
+            "`\"locate\"`: limit and turning points become points of the path; `\"detect\"`: reported at the end of "
+            "their step; `\"none\"`: ignored. Contact changes are always located");
+  keys.word(optional("equilibrium_family"), path.equilibrium_family, equilibrium_family_words,
+            "if equilibrium fixes only the total length of several contact zones: `\"symmetric\"` continues with the "
+            "solution in which adjacent zones grow equally; `\"stop\"` ends the branch");
   keys.flag(optional("jumps"), path.jumps,
-            "the state to which the structure jumps, at constant λ, after each loss of stability: see "
-            "[answers.md](answers.md). In the cases of a sweep `false`, unless the deck says otherwise");
+            "compute the state that the structure jumps to, at constant λ, after each loss of stability "
+            "([how-to](../how-to/snap-destination.md)); `false` in the cases of a sweep");
   if (keys.has("jumps")) path.jumps_given.in_deck = true;
-  keys.any_texts(optional("sensitivity", "none"), path.sensitivity,
-                 "numbers of the deck, as in `--set`, by which each located event has a derivative: "
-                 "`[\"wall.upper.profile.z\", \"material.m.E\"]`, see [answers.md](answers.md)");
+  keys.any_texts(
+      optional("sensitivity", "none"), path.sensitivity,
+      "parameters, as in `--set`, by which the λ of each event is differentiated ([how-to](../how-to/sensitivity.md))");
   search_keys(keys, path);
   keys.table(
       optional("stop"), Form::header, [&](Keys& stop) { stop_keys(stop, path.stop); }, "");
@@ -202,9 +194,8 @@ void stage_keys(Keys& keys, Stage& stage, const Deck& deck) {
   } else if (keys.reads() && find(deck.stages, stage.name) != nullptr) {
     keys.report("name", in_quotes(stage.name) + " is the name of another stage", "give each stage its own");
   }
-  const bool known = keys.choices(
-      "drives", stage.drives, driven_things(deck), "is nothing that λ may drive",
-      "what λ multiplies: `load.0` and `prescribed.1`, counted from 0 in the deck's order, or `wall.NAME`");
+  const bool known = keys.choices("drives", stage.drives, driven_things(deck), "is nothing that λ may drive",
+                                  "what λ scales: `load.0`, `prescribed.1` (counted from 0), or `wall.NAME`");
   const auto changes = [&](const std::string& thing) { return varies(deck, thing); };
   if (known && std::none_of(stage.drives.begin(), stage.drives.end(), changes))
     keys.report("drives", "nothing varies with λ in this stage: what it drives is zero",
@@ -408,20 +399,17 @@ void monitored_keys(Keys& keys, Monitor& monitor, const Deck& deck) {
   const auto name_key = [&](const char* key, std::string& name, Named of, const char* meaning) {
     if (shows(key, name)) right = keys.name(key, name, of, meaning) && right;
   };
-  name_key("wall", monitor.wall, Named::wall,
-           "instead of `at`: the name of a wall, the resultant of whose forces on the structure is shown; beside `at`: "
-           "a wall, the gap of the place to which is shown");
-  name_key("member", monitor.member, Named::member,
-           "instead of `at`: a member, of whose moments the greatest is shown, and where it is");
-  name_key("spring", monitor.spring, Named::spring, "instead of `at`: the name of a spring, whose force is shown");
-  if (keys.word("component", monitor.component, component_words, "see below") && right)
+  name_key("wall", monitor.wall, Named::wall, "instead of `at`: a wall (resultant force); with `at`: a wall (gap)");
+  name_key("member", monitor.member, Named::member, "instead of `at`: a member (maximum moment)");
+  name_key("spring", monitor.spring, Named::spring, "instead of `at`: a spring (its force)");
+  if (keys.word("component", monitor.component, component_words, "one of the following") && right)
     check_monitored(keys, deck, monitor);
 }
 
 void monitor_keys(Keys& keys, Monitor& monitor, const Deck& deck) {
   name_key(keys, deck, monitor);
   monitored_keys(keys, monitor, deck);
-  if (keys.integer(optional("sign"), monitor.sign, {.low = -1, .high = 1}, "1 or −1, multiplies the column") &&
+  if (keys.integer(optional("sign"), monitor.sign, {.low = -1, .high = 1}, "1 or −1; factor of the column") &&
       monitor.sign == 0)
     keys.report("sign", "0 is out of range", "give 1 or -1");
 }

@@ -21,7 +21,7 @@ void material_keys(Keys& keys, Material& material) {
       optional("nu", "none"), material.nu, unit::none, poisson_ratio,
       "Poisson's ratio, in (−1, ½); needed by the theories `\"reissner\"` and `\"essenburg\"`: G = E/(2(1 + ν))");
   keys.number(optional("expansion", "none"), material.expansion, unit::none, any_number,
-              "thermal expansion, strain per degree; needed where a temperature acts");
+              "thermal expansion, strain per degree; needed for a temperature");
 }
 
 void tube_keys(Keys& keys, Tube& tube) {
@@ -49,7 +49,7 @@ void section_keys(Keys& keys, Section& section) {
       }};
   keys.one_of("shape", section.shape, "one of the following", rectangle, circle, tube, general);
   keys.number(optional("shear_correction", "by theory"), section.shear_correction, unit::none, positive,
-              "factor on the shear stiffness, see below");
+              "factor on the shear stiffness");
 }
 
 bool point_key(Keys& keys, const Key& key, Point& point) {

@@ -67,10 +67,9 @@ void law_keys(Keys& keys, TableLaw& law, bool at_points) {
         if (of.reads() && at_points && !law.interpolation) law.interpolation = SpringLaw::Interpolation::linear;
         if (of.reads() && u && force) check_law(of, law);
       },
-      "instead of `stiffness` or `foundation`, in one `direction` (`\"x\"`, `\"z\"`, `\"rotation\"`; a foundation in x "
-      "or z): `force` [force, force length; of a foundation force/length] by `displacement` [length, rad], "
-      "through these points, constant beyond the first and the last; `interpolation`: `\"linear\"`, straight pieces, "
-      "the default of springs at points, or `\"smooth\"`, with a continuous slope, the only one of foundations");
+      "instead of `stiffness` or `foundation`: table of `force` (of a foundation per length) over `displacement` in "
+      "one `direction` (`\"x\"`, `\"z\"`, `\"rotation\"`), constant beyond its ends. `interpolation` is `\"linear\"` "
+      "(default of springs at points) or `\"smooth\"` (the only one of foundations)");
 }
 
 void stiffness_key(Keys& keys, Stiffness& stiffness) {
@@ -92,7 +91,7 @@ void stiffness_key(Keys& keys, Stiffness& stiffness) {
 
 void between_keys(Keys& keys, const Deck& deck, PointToPointSpring& spring) {
   if (!keys.names("between", spring.points, Named::point, EmptyList::refused,
-                  "instead of `at`: two points, of whose displacements and rotations the differences count"))
+                  "instead of `at`: two points; their relative displacement counts"))
     return;
   if (spring.points.size() != 2)
     return keys.report("between",
@@ -132,14 +131,12 @@ void foundation_keys(Keys& keys, Foundation& foundation) {
         if (of.reads() && right && foundation.x == 0.0 && foundation.z == 0.0)
           keys.report("foundation", "the foundation has no stiffness", "give x or z, greater than 0");
       },
-      "springs to the ground all along the member: force per length of the undeformed axis and of displacement "
-      "[force/length²]; at least one > 0");
+      "springs to the ground along the member: force per undeformed length and displacement; at least one > 0");
 }
 
 void name_key(Keys& keys, Spring& spring, const Deck& deck) {
   if (keys.writes() && spring.name.empty()) return;
-  if (!keys.text(optional("name", "none"), spring.name, "letters, digits, _ and -; by which a monitor shows its force"))
-    return;
+  if (!keys.text(optional("name", "none"), spring.name, "letters, digits, _ and -; for monitors")) return;
   if (!is_name(spring.name)) {
     keys.report("name", in_quotes(spring.name, 60) + " is no name", "use letters, digits, _ and - only");
   } else if (find(deck.springs, spring.name) != nullptr) {
@@ -159,8 +156,9 @@ void spring_keys(Keys& keys, Spring& spring, const Deck& deck) {
                 "give `at` for a spring to the ground, `between` for one between two points, or `on` for a foundation");
     return keys.give_up();
   }
-  keys.alternative<GroundSpring>(
-      "at", spring.kind, [&](GroundSpring& ground) { keys.place("at", ground.at, "a place: spring to the ground"); });
+  keys.alternative<GroundSpring>("at", spring.kind, [&](GroundSpring& ground) {
+    keys.place("at", ground.at, "location of a spring to the ground");
+  });
   keys.alternative<PointToPointSpring>("between", spring.kind,
                                        [&](PointToPointSpring& between) { between_keys(keys, deck, between); });
   const bool along = keys.reads() ? keys.has("on") : std::holds_alternative<Foundation>(spring.kind);

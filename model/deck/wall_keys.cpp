@@ -74,8 +74,8 @@ void motion_keys(Keys& keys, WallMotion& motion) {
         if (of.reads() && !of.has("x") && !of.has("z") && !of.has("rotation"))
           keys.report("motion", "the wall does not move", "give at least one of x, z and rotation");
       },
-      "the wall moves as a rigid body: by x and z [length] and by the rotation [rad] about a point that goes with it, "
-      "all times λ");
+      "rigid-body motion times λ: translation `x`, `z` [length] and `rotation` [rad] about the point `about`, which "
+      "moves along");
 }
 
 void check_faces(Keys& keys, const Deck& deck, const Wall& wall) {
@@ -98,42 +98,37 @@ void wall_keys(Keys& keys, Wall& wall, std::unordered_set<std::string>& taken, c
   if (keys.applies(!has_outline, "side", "belongs to a profile: an outline itself says on which side the body is",
                    "remove it"))
     keys.word("side", wall.side, side_words,
-              "of a profile. `\"above\"`: the structure stays below it; `\"below\"`: the structure stays above it");
+              "of a profile. `\"above\"`: the structure is below the wall; `\"below\"`: above it");
   keys.word(optional("contact_surface"), wall.contact_surface, contact_surface_words,
-            "What of a member touches the wall. `\"face\"`: the face of its section that looks at the profile in the "
-            "stress-free shape, or both faces where the section stands upright; beside an outline the points that are "
-            "half the section's height off the axis, towards the outline. `\"axis\"`: the centreline, which is what "
-            "trusses need, whose faces do not turn");
+            "`\"face\"`: the face of the section towards the wall; `\"axis\"`: the centreline, required for trusses");
   keys.names(optional("members", "all"), wall.members, Named::member, EmptyList::refused, "names");
   if (keys.applies(!has_outline, "profile", "does not go with an outline", "keep one of them"))
     keys.table(
         "profile", Form::dotted, [&](Keys& of) { profile_keys(of, wall); },
         "z = ψ(x), one of the following; or an `outline`");
   outline_keys(keys, wall);
-  keys.number(optional("interference"), wall.interference, unit::length, not_negative,
-              "the wall begins moved back by so much and is pushed to its place while the constant loads grow: the "
-              "structure may be inside of it at rest");
+  keys.number(
+      optional("interference"), wall.interference, unit::length, not_negative,
+      "initial overlap with the undeformed structure; the wall moves into place while the constant loads are applied");
   keys.part("motion", wall.motion, [&](WallMotion& motion) { motion_keys(keys, motion); });
   check_faces(keys, deck, wall);
 }
 
 void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
   keys.word(optional("method"), contact.method, contact_method_words,
-            "no penetration at all; `\"penalty\"`: springs of stiffness `penalty`, which act in compression; "
-            "`\"augmented\"`: no penetration, with springs beside the forces (theory.md, section 7.4)");
+            "`\"multiplier\"`: exact; `\"penalty\"`: springs of stiffness `penalty` in compression; `\"augmented\"`: "
+            "exact, multiplier plus spring");
   keys.word(optional("points", "by theory"), contact.points, contact_points_words,
-            "`\"moving\"`: contact points move along the members, their positions are unknowns; `\"nodes\"`: contact "
-            "is looked for at "
-            "the nodes of the mesh, as springs always are");
+            "`\"moving\"`: positions of contact points are unknowns; `\"nodes\"`: contact at mesh nodes only");
   // A default that depends on other keys is a comment: who reads the deck sees it, and it goes with the keys.
   if (keys.writes() && !contact.points && !deck.walls.empty()) {
     const PointsOfContact found = points_of_contact(deck);
     keys.comment("points = " + in_quotes(text_of(contact_points_words, found.points)) + ": " + found.why);
   }
   keys.number(optional("penalty", "none"), contact.penalty, unit::stress, positive,
-              "stiffness 1/μ: force per length of axis and of gap; > 0, required by `\"penalty\"` and `\"augmented\"`");
+              "force per length of axis and of penetration; > 0, required by `\"penalty\"` and `\"augmented\"`");
   keys.number(optional("gap_tolerance"), contact.gap_tolerance, unit::length, positive,
-              "of `\"augmented\"`: gaps of closed contacts end far below, at round-off");
+              "of `\"augmented\"`: bound on gaps of closed contacts");
   if (contact.method != ContactLaw::Method::rigid && !keys.has("penalty"))
     keys.report("penalty", "is missing: method " + text_of(contact_method_words, contact.method) + " needs it",
                 "add penalty, a number greater than 0");
