@@ -10,40 +10,40 @@
 
 namespace arcwall {
 
-/// What is done at branch points.
+/// Policies of branch switching.
 enum class BranchPolicy {
-  primary,      ///< stay on the first branch through every branch point
-  most_stable,  ///< where the branch ahead is unstable, take the bifurcated one: the one with fewest unstable
-                ///< directions
-  all,          ///< trace every branch found, to a depth
+  primary,      ///< stay on the first branch
+  most_stable,  ///< if the branch becomes unstable, switch to the one with fewest unstable directions
+  all,          ///< trace every branch found, up to a depth
 };
 
+/// Options of an explorer.
 struct ExploreOptions {
   BranchPolicy policy = BranchPolicy::primary;
-  int depth = 2;                                                ///< branches of branches, for `all`
-  std::vector<std::shared_ptr<const Observable>> preference{};  ///< of two mirror images the side on which the first of
-                                                                ///< these that changes increases
-  double distance = 0.02;                                       ///< of the first step off a branch point [path metric]
+  int depth = 2;                                                ///< greatest depth of a branch, for `all`
+  std::vector<std::shared_ptr<const Observable>> preference{};  ///< of two mirror images, take that on which the first
+                                                                ///< of these that changes increases
+  double distance = 0.02;  ///< length of the first step from a branch point [path metric]
 };
 
-/// A branch of the graph.
+/// Describes a branch.
 struct BranchRecord {
   int id = 0;
-  std::optional<int> parent{};                  ///< the branch it leaves
-  std::shared_ptr<const BranchPoint> origin{};  ///< where it leaves
-  int depth = 0;
-  int sign = 1;               ///< side of its branch point's mode
-  bool mirror_image = false;  ///< the other side is its mirror image and not traced
-  bool found = false;         ///< it leaves no branch: it begins at a state that was found
-  std::optional<BranchEnd> end{};
+  std::optional<int> parent{};                  ///< branch from which it bifurcates; empty: none
+  std::shared_ptr<const BranchPoint> origin{};  ///< its branch point; null: none
+  int depth = 0;                                ///< number of its ancestors
+  int sign = 1;                                 ///< side of its branch point's mode: 1 or −1
+  bool mirror_image = false;                    ///< the branch on the other side is its mirror image and is not traced
+  bool found = false;                           ///< a disconnected branch, started by Explorer::begin_at()
+  std::optional<BranchEnd> end{};               ///< empty before the end
 };
 
 struct TriedWay;
 
-/// Traces a branch and those that leave it, one after the other, by a policy.
+/// Traces a branch and the branches that bifurcate from it, one after the other.
 class Explorer {
  public:
-  /// `system` must outlive this.
+  /// `system` must outlive this. `start`, `trace` and `watched` as for Tracer.
   Explorer(const System& system, State start, TraceOptions trace, std::vector<Watch> watched, ExploreOptions options);
 
   struct Step {
@@ -51,25 +51,25 @@ class Explorer {
     Arc arc;
   };
 
-  /// The next arc of the branch under way, or the first of the next branch. Empty when all have ended.
+  /// Returns the next arc of the current branch, or the first of the next branch. Empty when all have ended.
   std::optional<Step> next();
 
-  /// A branch more, from a state that no other one passes through, with λ growing or falling (`sense`). It does not
-  /// change over to branches that leave it, whatever is done on the others.
+  /// Adds a disconnected branch from the equilibrium `found`; `sense` as in BranchStart. The policy is not applied on
+  /// it: bifurcating branches are ignored.
   void begin_at(State found, int sense);
 
   const std::vector<BranchRecord>& branches() const { return branches_; }
 
-  /// Ends the branch under way where it is, unless it has ended.
+  /// Ends the current branch at its last point.
   void end_branch(const BranchEnd& end) {
     if (tracer_ && !tracer_->end()) tracer_->stop(end);
   }
 
-  /// Ends everything where it is.
+  /// Ends all branches at their last points.
   void stop(const BranchEnd& end);
   bool is_stopped() const { return stopped_; }
 
-  /// Visits all that changes, as Tracer::serialize().
+  /// Writes or reads the whole variable state, as Tracer::serialize().
   template <typename Archive>
   void serialize(Archive& archive) {
     bool under_way = tracer_ != nullptr;

@@ -14,37 +14,36 @@ namespace arcwall {
 
 class BorderedSolver;
 
-/// Load increments without iteration, as Selke and Kikuchi take them (eqs. 11 to 14; docs/theory.md, section 10):
+/// Takes load increments without iteration (Selke and Kikuchi, eqs. 11 to 14; docs/theory.md, section 10):
 ///
 ///     K(x_t) Δx = λ_{t+1} f − f_int(x_t) + contact        at the configuration x_t
 ///
-/// What an increment leaves unbalanced, the residue R, goes into the next one, so that results depend on the
-/// increments. Within an increment contacts close and open until the linear problem's side conditions hold, if they
-/// can. For comparison with that scheme and for teaching: Tracer solves the equations.
+/// The residual of an increment enters the next one, so results depend on the increments. Each increment changes the
+/// active set until the linear complementarity conditions hold, if possible. Tracer solves the equations themselves.
 class LoadIncrements {
  public:
-  /// `system` must outlive this; `advance` tells it that an increment has led to a state, whose configuration is the
-  /// reference of the next. `lambda_scale` as in Metric; `make`: what K is factorized by.
+  /// `system` must outlive this. `advance` sets a state as the system's reference configuration after an increment.
+  /// `lambda_scale`: λ₀ of Metric. `make` creates the factorization of K.
   LoadIncrements(const UnilateralSystem& system, State start, double lambda_scale,
                  std::function<void(const State&)> advance, const MakeFactorization& make = make_ldlt);
   LoadIncrements(LoadIncrements&&) noexcept;
   ~LoadIncrements();
 
-  /// The state at the start, with its event.
+  /// Returns the arc of length zero at the start, with its event.
   Arc start();
 
-  /// One increment. Empty when it fails: see end().
+  /// Takes one increment to `lambda` and returns it. Empty if it fails: see end().
   std::optional<Arc> to(double lambda);
 
   const std::optional<BranchEnd>& end() const { return end_; }
 
-  /// Increments whose contacts found no set that fulfils the side conditions.
+  /// Returns the number of increments without an active set that satisfies the complementarity conditions.
   int unsettled() const { return unsettled_; }
 
-  /// Takes an increment that was taken before as taken, in the order in which they were.
+  /// Repeats an increment of an earlier run by its end state; call it in the original order.
   void repeat(const State& state) { advance_(state); }
 
-  /// Visits what else changes, as Tracer::serialize().
+  /// Writes or reads the other variable state, as Tracer::serialize().
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(last_, unsettled_, end_);

@@ -7,11 +7,11 @@
 
 namespace arcwall {
 
-/// Lengths in (x, λ), without units and independent of the number of elements:
+/// Defines the path metric of (x, λ), dimensionless and independent of the number of elements:
 ///
 ///     ⟨a, b⟩ = Σ w_i a_i b_i + a_λ b_λ / λ₀²
 ///
-/// (docs/theory.md, section 3). Multipliers have no weight. λ₀ is set once for a run.
+/// Multipliers have weight 0. λ₀ is constant in a run. Theory section 3.
 class Metric {
  public:
   Metric(Vector weights, double lambda_scale) : weights_(std::move(weights)), lambda_scale_(lambda_scale) {}
@@ -26,19 +26,19 @@ class Metric {
   }
   double norm(const Direction& a) const { return std::sqrt(inner(a, a)); }
 
-  /// Of two states on one piece.
+  /// Returns the distance of two states with one active set.
   double distance(const State& a, const State& b) const {
     const auto dx = (a.x - b.x).array();
     const double dlambda = a.lambda - b.lambda;
     return std::sqrt((weights_.array() * dx * dx).sum() + inner_lambda(dlambda, dlambda));
   }
 
-  /// The covector ⟨a, ·⟩.
+  /// Returns the covector ⟨a, ·⟩.
   Row row(const Direction& a) const {
     return {.dx = weights_.cwiseProduct(a.dx), .dlambda = a.dlambda / (lambda_scale_ * lambda_scale_)};
   }
 
-  /// Norm of a covector, so that |apply(row, d)| ≤ dual_norm(row) norm(d); entries without weight are left out.
+  /// Returns the dual norm: |apply(row, d)| ≤ dual_norm(row) · norm(d). Entries with weight 0 are left out.
   double dual_norm(const Row& row) const {
     const double scaled = row.dlambda * lambda_scale_;
     return std::sqrt(dual_squared(row.dx) + scaled * scaled);
@@ -57,7 +57,7 @@ class Metric {
   double lambda_scale_;
 };
 
-/// The direction scaled to length 1.
+/// Returns the direction scaled to length 1.
 inline Direction unit(const Metric& metric, Direction direction) {
   const double scale = 1.0 / metric.norm(direction);
   direction.dx *= scale;
@@ -65,7 +65,7 @@ inline Direction unit(const Metric& metric, Direction direction) {
   return direction;
 }
 
-/// ‖F‖ over the norm of the load at max(|λ|, load_floor): the relative residual [-].
+/// Returns the relative residual: ‖F‖ over the norm of the load at max(|λ|, load_floor) [-].
 inline double relative_residual(const Metric& metric, const Linearization& equations, double lambda,
                                 double load_floor) {
   const double load = metric.dual_norm(equations.F_lambda) * std::max(std::abs(lambda), load_floor);

@@ -12,21 +12,22 @@
 
 namespace arcwall {
 
-/// A converged point of a path.
+/// Stores a converged point of an equilibrium path.
 struct PathPoint {
   State state{};
-  Direction tangent{};                          ///< of unit length, forward along the path
+  Direction tangent{};                          ///< unit tangent, forward along the path
   double arc = 0.0;                             ///< arc length from the branch's first point [path metric]
-  std::optional<Index> negative_eigenvalues{};  ///< with all closed contacts held; empty: one is zero within round-off
+  std::optional<Index> negative_eigenvalues{};  ///< of K with all closed contacts; empty: K is singular to round-off
   StabilityCount count{};
   NearNull nearest{};      ///< estimates of the eigenpairs nearest zero, at most two; none at singular points
-  int iterations = 0;      ///< of the step that led here
-  double residual = 0.0;   ///< relative
-  double unsettled = 0.0;  ///< how far round-off lets the corrector move it; 0 where it settled [path metric]
-  Vector guards{};         ///< in the scale of System::guards
+  int iterations = 0;      ///< of the corrector
+  double residual = 0.0;   ///< relative residual [-]
+  double unsettled = 0.0;  ///< corrections due to round-off; 0 if the corrector converged [path metric]
+  Vector guards{};         ///< see UnilateralSystem::guards() [-]
   Vector guard_rates{};    ///< along the tangent
 };
 
+/// Kinds of events; to_text() in model/event_names.hpp returns their names.
 enum class EventKind {
   start,
   end,
@@ -44,20 +45,20 @@ enum class EventKind {
   user,  ///< of a detector that the program added
 };
 
-/// Which way λ turns at a limit point.
+/// Type of extremum of λ at a limit point.
 enum class Extremum { maximum, minimum };
 
-/// How branches cross.
+/// Type of a bifurcation.
 enum class BranchType {
-  pitchfork,      ///< the other branch leaves along the mode, both sides alike at first order
-  transcritical,  ///< both branches pass through the point, and λ turns on neither
-  one_sided,      ///< several directions leave a change of contacts
-  multiple,       ///< several modes at one place, or none that is known
+  pitchfork,      ///< the other branch leaves along the mode, symmetric to first order
+  transcritical,  ///< both branches pass through the point, and λ is monotone on both
+  one_sided,      ///< non-smooth: an active-set change with several outgoing directions
+  multiple,       ///< several critical modes, or no known mode
 };
 
-/// A point where several branches meet.
+/// Stores a bifurcation point.
 struct BranchPoint {
-  /// A one-sided way on: the contacts closed along it and its unit direction in the unknowns of that piece.
+  /// Stores an outgoing direction at an active-set change: its active set, and the unit direction in these unknowns.
   struct Way {
     Piece piece{};
     Direction direction{};
@@ -65,68 +66,68 @@ struct BranchPoint {
 
   BranchType type = BranchType::pitchfork;
   State state{};
-  Direction along{};                ///< unit tangent of the branch it was found on, forward
-  Direction mode{};                 ///< critical mode, of unit length, first largest component positive; no λ
+  Direction along{};                ///< forward unit tangent of the traced branch
+  Direction mode{};                 ///< critical mode of unit length, first largest component positive; dlambda = 0
   std::vector<Direction> modes{};   ///< all critical modes, `mode` the first
   Direction other{};                ///< unit tangent of the other branch
-  std::vector<Way> ways{};          ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty. Of
-                                    ///< a pitchfork that is met along its own branch: both along the other one
+  std::vector<Way> ways{};          ///< one_sided: outgoing directions not taken; `mode` and `other` are then empty.
+                                    ///< Pitchfork reached along its own branch: both directions of the other branch
   Index multiplicity = 1;           ///< of the zero eigenvalue
-  Index change = 0;                 ///< of the number of negative eigenvalues across it
-  double lambda_uncertainty = 0.0;  ///< half-width in λ of what is left uncertain
-  bool mesh_artefact = false;       ///< contacts tied to nodes make it: the continuum has none
-  bool at_corner = false;           ///< its branches begin with a part that has no length there: `state` is a little
-                                    ///< behind it, on the path
+  Index change = 0;                 ///< of the number of negative eigenvalues across the point
+  double lambda_uncertainty = 0.0;  ///< half-width in λ
+  bool mesh_artefact = false;       ///< due to contact at nodes; absent in the continuous problem
+  bool at_corner = false;  ///< its branches start with a contact zone of length 0; `state` lies on the path just
+                           ///< after the point
 
-  /// A pitchfork that the path comes to along the branch that bifurcates: beyond it lies the path's mirror image.
+  /// Returns true if the path reached a pitchfork along the bifurcated branch; its continuation is its mirror image.
   bool ends_its_own_branch() const { return type == BranchType::pitchfork && !ways.empty(); }
 };
 
-/// A located point of a path.
+/// Stores a located event of a path.
 struct Event {
   EventKind kind = EventKind::start;
-  std::string label{};  ///< which monitor turns; why the branch ends
-  State state{};        ///< on the piece of `guards`; the arc's end may be the same place on another mesh
-  double arc = 0.0;
-  double residual = 0.0;            ///< relative
-  double lambda_uncertainty = 0.0;  ///< half-width in λ of what is left uncertain
-  bool unconfirmed = false;         ///< zero is touched without a change of sign, as nearly as can be told
-  std::optional<Index> unstable_before{}, unstable_after{};
-  std::optional<Extremum> extremum{};              ///< of λ, where it turns
-  std::vector<Index> guards{};                     ///< contacts that change
-  std::optional<Continuum> continuum{};            ///< of which the path keeps to one member from here on
-  std::shared_ptr<const BranchPoint> branching{};  ///< of branch points
+  std::string label{};    ///< name of the monitor; reason of the end
+  State state{};          ///< has the active set of `guards`; the arc's end may be the same point on another mesh
+  double arc = 0.0;       ///< arc length from the branch's first point [path metric]
+  double residual = 0.0;  ///< relative residual [-]
+  double lambda_uncertainty = 0.0;                           ///< half-width in λ; 0 for events that are solved for
+  bool unconfirmed = false;                                  ///< a zero without a detected change of sign
+  std::optional<Index> unstable_before{}, unstable_after{};  ///< unstable directions; empty: unknown
+  std::optional<Extremum> extremum{};                        ///< of λ, at limit points
+  std::vector<Index> guards{};                               ///< contacts that change
+  std::optional<Continuum> continuum{};            ///< equilibrium family of which the path follows one from here on
+  std::shared_ptr<const BranchPoint> branching{};  ///< of branch points; else null
 };
 
-/// Why a branch ended.
+/// Reasons of the end of a branch.
 enum class EndReason {
-  stop,             ///< a bound of the deck was met
-  closed_loop,      ///< it came back to a point it had passed
-  reached_branch,   ///< it reached a branch point of another branch
-  switched_branch,  ///< the path goes on along a bifurcated branch
+  stop,             ///< a stop bound was reached
+  closed_loop,      ///< the branch returned to one of its points
+  reached_branch,   ///< the branch reached a branch point of another branch
+  switched_branch,  ///< the path continues on a bifurcated branch
   max_points,
   max_time,
   interrupted,
-  min_step,  ///< no step above the least length succeeds
-  singular,  ///< the equations are singular where they should not be
+  min_step,  ///< no step longer than StepOptions::min converged
+  singular,  ///< the equations are singular at a regular point
   not_finite,
-  no_continuation,     ///< no equilibrium leaves a change of contacts
-  control_turns,       ///< the controlled quantity turns
+  no_continuation,     ///< no equilibrium continues beyond an active-set change
+  control_turns,       ///< the controlled quantity reached a turning point
   wall_end,            ///< a contact reached the end of its wall
-  equilibrium_family,  ///< a continuum of equilibria with one load and energy lies ahead
-  not_modelled,        ///< something lies ahead that is not modelled
-  rigid_body_motion,   ///< a body that nothing holds was pushed away
+  equilibrium_family,  ///< a family of equilibria with one load and energy follows
+  not_modelled,        ///< a contact configuration follows that is not modelled
+  rigid_body_motion,   ///< an unconstrained body moved away
 };
 
-/// How a branch ended.
+/// Stores the end of a branch.
 struct BranchEnd {
   EndReason reason = EndReason::stop;
-  std::string detail{};          ///< which bound; what to try
-  std::optional<int> partner{};  ///< the branch that it joined or that goes on
-  std::optional<Continuum> continuum{};
+  std::string detail{};                  ///< the bound; the cure
+  std::optional<int> partner{};          ///< branch that was reached, or that continues the path
+  std::optional<Continuum> continuum{};  ///< of equilibrium_family
 };
 
-/// One accepted stretch of path and the events at its end. The first arc of a branch has length zero.
+/// Stores one accepted step and the events at its end. The first arc of a branch has length zero.
 struct Arc {
   PathPoint to{};
   std::vector<Event> events{};

@@ -3,20 +3,20 @@
 
 namespace arcwall {
 
-/// Points of a path that are nearer to each other are one [path metric].
+/// Distance below which points of a path coincide [path metric].
 inline constexpr double coincidence_tolerance = 1e-8;
 
-/// Penetration that is let pass between contacts [scale of guards].
+/// Penetration that is accepted between contacts [scale of guards].
 inline constexpr double penetration_tolerance = 1e-11;
 
-/// What the error of a mesh may make of a guard that is zero [scale of guards].
+/// Mesh error of a vanishing guard [scale of guards].
 inline constexpr double mesh_error = 1e-6;
 
-/// How exactly places on a path near which it is singular are known [path metric].
+/// Accuracy of points near a singular point [path metric].
 inline constexpr double singular_point_accuracy = 1e-5;
 
-/// How far behind a branch point the unstable directions of a branch that leaves it are counted: of its first step. K
-/// is regular there again, and another singular point hardly lies between.
+/// Distance from a branch point at which the unstable directions of an outgoing branch are counted, over its first
+/// step.
 inline constexpr double just_behind = 0.05;
 
 }  // namespace arcwall

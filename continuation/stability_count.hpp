@@ -6,13 +6,13 @@
 
 namespace arcwall {
 
-/// What the second variation says of an equilibrium under load control.
+/// Stability of an equilibrium under load control, by the second variation.
 enum class Stability { stable, unstable, undecided };
 
-/// Negative eigenvalues of K on {v : G_S v = 0}, S the contacts that are closed with a force above the tolerance, and
-/// what follows from it. Contacts without force hold nothing (Selke & Kikuchi's snap would be hidden if they did).
+/// Stores the number of negative eigenvalues of K on {v : G_S v = 0}. S: the closed contacts with a force above the
+/// tolerance. Closed contacts without force do not constrain v.
 struct StabilityCount {
-  std::optional<Index> unstable{};  ///< empty: K is singular within round-off, or the second variation leaves it open
+  std::optional<Index> unstable{};  ///< empty: K is singular to round-off, or the second variation is indeterminate
   Stability stability = Stability::undecided;
 };
 

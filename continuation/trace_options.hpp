@@ -18,94 +18,95 @@
 
 namespace arcwall {
 
-/// A bound that ends the branch, or a value to land on and go on.
+/// Defines a stop bound or an output point: a value of a quantity, solved for.
 struct TargetValue {
   std::shared_ptr<const Observable> quantity{};
-  double value = 0.0;
-  bool stops = false;
+  double value = 0.0;   ///< in the unit of the quantity
+  bool stops = false;   ///< true: the branch ends there
   std::string label{};  ///< for messages: `mid = -0.16`
 };
 
-/// A kind of event that ends the branch.
+/// Defines a kind of event that ends the branch.
 struct StopEvent {
   EventKind kind = EventKind::limit_point;
   std::string label{};  ///< for messages: `event = limit-point`
 };
 
-/// What is done about zeros of the detectors inside a step.
+/// Selects how zeros of the detectors inside a step are treated.
 enum class EventSearch {
-  locate,  ///< each becomes a point of the path
-  detect,  ///< reported at the end of the step, with the interval
-  none,
+  locate,  ///< solve for each; it becomes a point of the path
+  detect,  ///< report it at the end of the step, with the interval
+  none,    ///< ignore
 };
 
-/// What to trace and how. The defaults need no tuning.
+/// Options of a tracer. The defaults need no tuning.
 struct TraceOptions {
   PathMethod method = PathMethod::spherical;
-  std::shared_ptr<const Observable> control{};  ///< of `displacement`
+  std::shared_ptr<const Observable> control{};  ///< controlled quantity of `displacement`; else null
   StepOptions step{};
   CorrectorOptions corrector{};
   CornerOptions corner{};
   std::vector<TargetValue> target_values{};
   std::optional<Index> stop_contacts{};  ///< number of closed contacts that ends the branch
-  std::vector<StopEvent> stop_events{};  ///< the first of any of these ends the branch
+  std::vector<StopEvent> stop_events{};  ///< the first event of any of these kinds ends the branch
   EventSearch events = EventSearch::locate;
-  std::vector<EventDetector> detectors{};  ///< besides limit points and watched monitors
-  bool node_contacts = false;      ///< contacts cannot slide along the body: branch points with closed ones are marked
-  double guard_tolerance = 1e-12;  ///< guards above −this are fulfilled, those within it degenerate
-  /// What the error of a mesh may make of the force of a closed contact that is zero [scale of guards]. Less than of
-  /// other guards where round-off makes the scale greater than forces are.
+  std::vector<EventDetector> detectors{};  ///< in addition to limit points and watched monitors
+  bool node_contacts = false;              ///< contact at nodes: branch points with closed contacts get `mesh_artefact`
+  double guard_tolerance = 1e-12;  ///< a guard is satisfied above −this, degenerate within ±this [scale of guards]
+  /// Mesh error of a vanishing contact force [scale of guards]. Less than that of other guards if round-off determines
+  /// the scale.
   double mesh_error_of_forces = mesh_error;
 
-  /// The same of any guard of a piece.
+  /// Returns the mesh error of a guard [scale of guards].
   double mesh_error_of(const Piece& piece, Index guard) const {
     const bool is_force = guard < static_cast<Index>(piece.size()) && piece[static_cast<std::size_t>(guard)];
     return is_force ? mesh_error_of_forces : mesh_error;
   }
 
-  double localisation = 1e-12;           ///< bracket of an event as a part of its step
-  std::optional<double> lambda_scale{};  ///< λ₀ of the metric, where the branch's start has none; else by its tangent
+  double localisation = 1e-12;  ///< width of an event's bracket over its step length [-]
+  std::optional<double>
+      lambda_scale{};  ///< λ₀ of the metric if BranchStart has none; empty: from the tangent stiffness
   int max_points = 5000;
-  bool every_direction = false;  ///< report a change of contacts that several directions leave as a branch point also
-                                 ///< where one of them alone is stable
-  std::function<void(const StepAttempt&)> ledger{};  ///< is told of every attempted step
-  MakeFactorization factorization = make_ldlt;       ///< makes what stiffness matrices are factorized by
-  bool stay = false;  ///< where only unstable directions leave a change of contacts: keep the old contacts if one does
+  bool every_direction = false;  ///< report a branch point at each active-set change with several outgoing directions,
+                                 ///< also if only one of them is stable
+  std::function<void(const StepAttempt&)> ledger{};  ///< called after each attempted step
+  MakeFactorization factorization = make_ldlt;       ///< creates the factorization of the tangent stiffness
+  bool stay = false;  ///< if all outgoing directions are unstable: prefer one with the old active set
 };
 
-/// A monitor whose turning points are events.
+/// Defines a monitor whose turning points are events.
 struct Watch {
   std::shared_ptr<const Observable> quantity{};
   std::string label{};
 };
 
-/// A branch point that another branch passes through.
+/// Stores a branch point on another branch.
 struct KnownPoint {
   State state{};
   int branch = 0;
 };
 
-/// The beginning of a branch that leaves a pitchfork in a corner (BranchPoint::at_corner). At the corner itself, where
-/// its new part has no length, K is singular, so that no step begins there.
+/// Stores the start of a branch at a pitchfork with an active-set change (BranchPoint::at_corner). The tangent
+/// stiffness is singular there, because the new contact zone has no length; no step can start there.
 struct EnteredBranch {
-  State begin{};          ///< an equilibrium near the corner; the part may be shorter there than its bound allows
-  Direction tangent{};    ///< there, away from the corner, of unit length
-  State first{};          ///< the first equilibrium behind it at which all guards hold
-  double distance = 0.0;  ///< at which the branch was entered, along the mode [path metric]
+  State begin{};          ///< equilibrium near the branch point; the zone may be shorter than its bound
+  Direction tangent{};    ///< unit tangent at `begin`, away from the branch point
+  State first{};          ///< first equilibrium after it with all guards ≥ 0
+  double distance = 0.0;  ///< distance of `begin` along the mode [path metric]
 };
 
-/// Where a branch begins: at a state alone, forward with λ or against it; or at a branch point, along one of its
-/// tangents; or at a corner, behind which it was entered.
+/// Stores the start of a branch: a state alone, a branch point with a tangent (`forward`), or a branch point with an
+/// active-set change (`entered`).
 struct BranchStart {
   State state{};
-  int sense = 1;                           ///< of a state alone: −1 against StepOptions::first
-  std::optional<Direction> forward{};      ///< unit tangent at a branch point
-  std::optional<EnteredBranch> entered{};  ///< behind a corner
-  Direction mode{};                        ///< the first step keeps its component along this
-  double distance = 0.02;                  ///< of the first step off a branch point [path metric]
-  std::optional<Index> unstable{};         ///< of the branch point
-  std::optional<double> lambda_scale{};    ///< of the metric, as on the branches before
-  std::vector<KnownPoint> known{};         ///< branch points where this branch would join another
+  int sense = 1;                       ///< of a state alone: 1 in the direction of StepOptions::first, −1 against it
+  std::optional<Direction> forward{};  ///< unit tangent at a branch point
+  std::optional<EnteredBranch> entered{};  ///< after an active-set change
+  Direction mode{};                        ///< critical mode; its component is constant in the first step
+  double distance = 0.02;                  ///< length of the first step from a branch point [path metric]
+  std::optional<Index> unstable{};         ///< number of unstable directions at the branch point
+  std::optional<double> lambda_scale{};    ///< λ₀ of the metric, as on the branches before
+  std::vector<KnownPoint> known{};         ///< branch points at which this branch ends (reached_branch)
 };
 
 }  // namespace arcwall

@@ -13,40 +13,41 @@ namespace arcwall {
 
 struct TraceTools;
 
-/// Traces one branch arc by arc, from a state on the path.
+/// Traces one branch of an equilibrium path, one step (arc) a call.
 ///
 ///     Tracer tracer(system, start, options);
 ///     while (const auto arc = tracer.next()) use(*arc);
 ///     explain(*tracer.end());
 class Tracer {
  public:
-  /// `system` must outlive this; the start solves its equations or nearly so.
+  /// `system` must outlive this. `start` is an equilibrium, or close to one. `watched`: monitors whose turning points
+  /// are events.
   Tracer(const System& system, BranchStart start, TraceOptions options, std::vector<Watch> watched = {});
   Tracer(const System& system, State start, TraceOptions options, std::vector<Watch> watched = {})
       : Tracer(system, BranchStart{.state = std::move(start)}, std::move(options), std::move(watched)) {}
   ~Tracer();
 
-  /// The next arc; the first has length zero and carries the `start` event. Empty when the branch has ended: see end().
+  /// Returns the next arc; the first has length zero and the `start` event. Empty when the branch has ended: see end().
   std::optional<Arc> next();
 
-  /// Why the branch ended; empty while it goes on.
+  /// Returns the reason of the end; empty before the end.
   const std::optional<BranchEnd>& end() const { return state_.end; }
 
-  /// Ends the branch where it is (a time limit, an interrupt).
+  /// Ends the branch at its last point (time limit, interrupt).
   void stop(BranchEnd end) { state_.end = std::move(end); }
 
-  /// λ₀ of the path metric.
+  /// Returns λ₀ of the path metric; theory section 3.
   double lambda_scale() const { return state_.lambda_scale; }
 
-  /// The point that the next step leaves: the last accepted one, or one near the beginning of a piece entered there.
+  /// Returns the start point of the next step: the last accepted point, or one just after a change of the layout.
   const PathPoint& here() const { return state_.from.point; }
 
-  /// The one before it on the same smooth arc, without its eigenpairs; empty behind a change of contacts and at the
-  /// start.
+  /// Returns the point before here() on the same smooth arc, without its eigenpairs. Empty at the start and after a
+  /// change of the active set.
   const std::optional<PathPoint>& before() const { return state_.from.before; }
 
-  /// Visits all that changes while the branch is traced: `archive(values…)` writes or reads them, `Archive::reads` says
-  /// which. A tracer of the same system and options into which they are read goes on to the same last bit.
+  /// Writes or reads the whole variable state by `archive(values…)`; `Archive::reads` is true for reading. A tracer
+  /// with the same system and options continues with bit-identical results.
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(state_);

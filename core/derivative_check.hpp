@@ -7,22 +7,22 @@
 
 namespace arcwall {
 
-/// How far analytic derivatives are from central differences.
+/// Stores the differences between analytic derivatives and central differences [-].
 struct DerivativeReport {
   double K = 0.0;               ///< ∂F/∂x, relative to its greatest entry
   double F_lambda = 0.0;        ///< ∂F/∂λ, relative
   double consistency = 0.0;     ///< F of linearize() against residual(), relative
-  double energy = 0.0;          ///< ∂energy/∂x against F on the piece without contact forces; relative; see below
+  double energy = 0.0;          ///< ∂energy/∂x against F, relative; 0 with multipliers
   double guard_gradient = 0.0;  ///< all guards, relative to the greatest entry of each gradient
 
   double worst() const;
 };
 
-/// Compares K, F_λ and all guard gradients with central differences of fourth order and step `step` (times 1 + |x|).
-/// The energy is compared only on pieces without multipliers, where F is its gradient.
+/// Compares K, F_λ and all guard gradients with fourth-order central differences of step `step` · (1 + |x|). Compares
+/// the energy only without multipliers, where F is its gradient.
 DerivativeReport check_derivatives(const UnilateralSystem& system, const State& state, double step = 1e-4);
 
-/// Largest difference between the gradient and central differences, relative to the gradient's greatest entry.
+/// Returns the largest difference between gradient and central differences, relative to the gradient's largest entry.
 double check_gradient(const Observable& observable, const State& state, double step = 1e-4);
 
 }  // namespace arcwall

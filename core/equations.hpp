@@ -7,51 +7,49 @@
 
 namespace arcwall {
 
-/// The first of three levels of a system: equilibrium equations F(x, λ) = 0 that are smooth on each piece.
+/// Defines equilibrium equations F(x, λ) = 0 that are smooth for each active set: the first of three levels of a
+/// system.
 ///
-/// A piece says which contacts are closed and what the unknowns mean; equations without contact have one, the empty
-/// piece. x has size(piece) entries in whatever units the implementation gives its unknowns, and weights() makes them
-/// comparable. F is internal minus external force; a unit of F_i times one of x_i is an energy.
+/// Equations without contact have one active set, the empty Piece. x has size(piece) entries, in units of the
+/// implementation's choice; weights() makes them dimensionless. F is internal minus external force. A unit of F_i times
+/// one of x_i is an energy.
 ///
-/// Must be overridden: size, residual, linearize and energy. Must hold: residual() and linearize() give the same F;
-/// K, B, C and F_λ are its derivatives; K is symmetric; without multipliers F is the gradient of the energy
-/// (check_derivatives() in core/derivative_check.hpp tells). Immutable: every function is const and depends on its
-/// arguments alone, so that a step can be retried, bisected or branched.
+/// Override size, residual, linearize and energy. residual() and linearize() return the same F; K, B, C and F_λ are its
+/// derivatives; K is symmetric. Without multipliers F is the gradient of the energy. check_derivatives() in
+/// core/derivative_check.hpp tests this. Immutable: each result depends on the arguments alone.
 class Equations {
  public:
   virtual ~Equations() = default;
 
-  /// Number of unknowns on a piece: those of the structure, then one contact force a closed contact.
+  /// Returns the number of unknowns: those of the structure, then one contact force a closed contact.
   virtual Index size(const Piece& piece) const = 0;
 
-  /// F; has size(state.piece) entries.
+  /// Writes the residual F, size(state.piece) entries.
   virtual void residual(const State& state, Eigen::Ref<Vector> F) const = 0;
 
-  /// F, K and F_λ. Lays out the pattern of K when `out` was last used on another piece.
+  /// Writes F, K and F_λ. Allocates the pattern of K again if `out` was last used with another active set.
   virtual void linearize(const State& state, Linearization& out) const = 0;
 
-  /// Total potential energy: strain energy minus the work of the loads [force·length].
+  /// Returns the total potential energy: strain energy minus the work of the loads [force·length].
   virtual double energy(const State& state) const = 0;
 
-  /// Weights of the squared norm of x in the path metric: Σ w_i x_i² is dimensionless. Not negative, and 0 for
-  /// multipliers; size(piece) entries.
+  /// Returns the weights w of the path metric: Σ w_i x_i² is dimensionless. size(piece) entries, ≥ 0, and 0 for
+  /// multipliers.
   virtual Vector weights(const Piece& piece) const { return Vector::Ones(size(piece)) / double(size(piece)); }
 
-  /// Square of the length, in that metric, by which λ itself moves supports and obstacles, or makes members
-  /// expand, per unit.
+  /// Returns the squared length, in that metric, by which a unit of λ moves supports and obstacles or expands members.
   virtual double squared_motion_by_lambda(const Piece&) const { return 0.0; }
 
-  /// Of each unknown the set that it is in, or −1. All unknowns of a set may grow by 2π while F stays what it is, so
-  /// that the state is the same: rotations. Empty where there are no such sets; it may end before the multipliers.
+  /// Returns for each unknown the number of its rotation set, or −1. F is unchanged if all unknowns of a set grow by
+  /// 2π. Empty if there are no sets; the entries of multipliers may be missing.
   virtual std::vector<Index> turning_sets(const Piece&) const { return {}; }
 
-  /// How many unknowns at the end of those of K are multipliers: forces and moments that enforce constraints, in whose
-  /// rows K has no diagonal, or a negative one. Each takes a negative eigenvalue of K, which stability does not count.
+  /// Returns the number of Lagrange multipliers, the last unknowns of K. Their diagonal of K is 0 or negative. Each
+  /// adds one negative eigenvalue to K, which the stability count leaves out.
   virtual Index multiplier_count(const Piece&) const { return 0; }
 
-  /// Whether eigenvalues of K tell how many directions are unstable. Not of equations that no structure is in
-  /// equilibrium by, as those of an event that is followed: then nothing is counted, and branch points are not looked
-  /// for.
+  /// Returns true if the negative eigenvalues of K count unstable directions. If false, the tracer neither counts them
+  /// nor searches for branch points; an example is the equations of an event that is followed.
   virtual bool has_stability() const { return true; }
 };
 

@@ -6,7 +6,7 @@
 
 namespace arcwall {
 
-/// One thing that is wrong with the input, where it stands and what would be right.
+/// Describes one error of the input: location, cause and cure.
 struct Diagnostic {
   std::string file{};     ///< as the user named it; empty: no file (a command line, a program's own model)
   int line = 0;           ///< counts from 1; 0: unknown
@@ -16,16 +16,16 @@ struct Diagnostic {
   std::string cure{};     ///< what would be right; may be empty
 };
 
-/// `file:line:column: key: message; cure`, without the parts that are unknown.
+/// Returns `file:line:column: key: message; cure`, without the unknown parts.
 std::string to_text(const Diagnostic& diagnostic);
 
-/// The input is wrong. Carries every diagnostic found, never only the first; what() has one a line.
+/// Reports wrong input with all diagnostics found; what() has one a line.
 class InputError : public std::runtime_error {
  public:
   /// `diagnostics` must not be empty.
   explicit InputError(std::vector<Diagnostic> diagnostics);
 
-  /// One diagnostic without a place.
+  /// Makes one diagnostic without file, line and key.
   explicit InputError(const std::string& message);
 
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
@@ -34,7 +34,7 @@ class InputError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// A file cannot be written or read; what() names it and the system's reason.
+/// Reports a file that cannot be written or read; what() names the file and the system's reason.
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

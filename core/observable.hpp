@@ -7,27 +7,28 @@
 
 namespace arcwall {
 
-/// A scalar that is read off a state: a monitor, a stop rule's quantity, the control of a path.
+/// Evaluates a scalar function of the state: a monitor, the quantity of a stop bound, the control of a path.
 ///
-/// `value` and `gradient` are consistent: check_gradient() in core/derivative_check.hpp holds for every implementation.
+/// gradient() is the derivative of value(); check_gradient() in core/derivative_check.hpp tests it.
 class Observable {
  public:
   virtual ~Observable() = default;
 
+  /// Returns the value, in the unit of the implementation.
   virtual double value(const State& state) const = 0;
 
-  /// dx has state.x.size() entries.
+  /// Returns the derivative by (x, λ); dx has state.x.size() entries.
   virtual Row gradient(const State& state) const = 0;
 };
 
-/// λ itself.
+/// Evaluates the load factor λ.
 class ParameterValue final : public Observable {
  public:
   double value(const State& state) const override { return state.lambda; }
   Row gradient(const State& state) const override { return {.dx = Vector::Zero(state.x.size()), .dlambda = 1.0}; }
 };
 
-/// Another quantity times a factor.
+/// Evaluates another quantity times a factor.
 class ScaledObservable final : public Observable {
  public:
   ScaledObservable(std::shared_ptr<const Observable> quantity, double factor)

@@ -12,15 +12,16 @@
 
 namespace arcwall {
 
-/// What the unknowns of a system mean where that changes along a path: a mesh whose nodes move, say. Immutable; only
-/// the system that made it looks inside.
+/// Identifies a layout of degrees of freedom that may change along a path, for example a mesh that follows contacts.
+/// Immutable and opaque: only the system that created it reads it.
 class Layout {
  public:
   virtual ~Layout() = default;
 };
 
-/// Which contacts are closed, per contact 0 (open) or 1 (closed), and what the unknowns mean. The equations are smooth
-/// on one piece. Behind the contacts stand the *kinks* of laws of straight pieces: 0 up to a kink, 1 beyond it.
+/// Stores an active set: one status a contact, 0 (open) or 1 (closed), and the layout of the degrees of freedom.
+/// The equations are smooth as long as the active set is constant. The last entries are the *kinks* of piecewise linear
+/// laws: 0 up to the kink, 1 beyond it.
 class Piece {
  public:
   Piece() = default;
@@ -35,21 +36,21 @@ class Piece {
   auto begin() const { return closed_.begin(); }
   auto end() const { return closed_.end(); }
 
-  /// Null where the unknowns always mean the same.
+  /// Returns the layout; null if the system has only one.
   const std::shared_ptr<const Layout>& layout() const { return layout_; }
 
-  /// The same layout with no contact closed and all kinks ahead.
+  /// Returns the same layout with all contacts open and all kinks 0.
   Piece all_open() const {
     Piece piece(size(), 0, layout_);
     piece.kinks_ = kinks_;
     return piece;
   }
 
-  /// Number of kinks, which stand last, and of what stands before them.
+  /// Return the numbers of kinks (last entries) and of contacts (entries before them).
   std::size_t kinks() const { return kinks_; }
   std::size_t contacts() const { return size() - kinks_; }
 
-  /// The same contacts and layout with these statuses of kinks behind them.
+  /// Returns the same contacts and layout with other kink statuses, each 0 or 1.
   Piece with_kinks(std::span<const std::uint8_t> status) const {
     Piece piece = *this;
     piece.closed_.resize(contacts());
@@ -61,7 +62,7 @@ class Piece {
     return with_kinks(std::span(other.closed_).subspan(other.contacts()));
   }
 
-  /// Number of closed contacts.
+  /// Returns the number of closed contacts.
   Index closed_count() const {
     return std::count(begin(), begin() + static_cast<std::ptrdiff_t>(contacts()), std::uint8_t{1});
   }
@@ -74,40 +75,40 @@ class Piece {
   std::shared_ptr<const Layout> layout_;
 };
 
-/// All that varies along a path.
+/// Stores one point of an equilibrium path.
 struct State {
-  Vector x{};           ///< unknowns; their number depends on the piece
-  double lambda = 0.0;  ///< the path parameter
-  Piece piece{};        ///< empty for a system without guards
+  Vector x{};           ///< unknowns; Equations::size(piece) entries
+  double lambda = 0.0;  ///< load factor λ [-]
+  Piece piece{};        ///< active set; empty for a system without contacts
 
   friend bool operator==(const State& a, const State& b) {
     return a.piece == b.piece && a.lambda == b.lambda && a.x.size() == b.x.size() && a.x == b.x;
   }
 };
 
-/// A covector of (x, λ): the derivative of one scalar function of the state.
+/// Stores the derivative of a scalar function of the state by (x, λ).
 struct Row {
   Vector dx{};
   double dlambda = 0.0;
 };
 
-/// A vector of (x, λ): a tangent, or the difference of two states on one piece.
+/// Stores a vector of (x, λ): a tangent, or the difference of two states with one active set.
 struct Direction {
   Vector dx{};
   double dlambda = 0.0;
 };
 
-/// The row applied to the direction.
+/// Returns the directional derivative row · direction; both have the same size.
 inline double apply(const Row& row, const Direction& direction) {
   return row.dx.dot(direction.dx) + row.dlambda * direction.dlambda;
 }
 
-/// from + s · direction, on the piece of `from`.
+/// Returns from + s · direction, with the active set of `from`.
 inline State moved(const State& from, const Direction& direction, double s) {
   return {.x = from.x + s * direction.dx, .lambda = from.lambda + s * direction.dlambda, .piece = from.piece};
 }
 
-/// to − from; both on one piece.
+/// Returns to − from; both states have the same active set.
 inline Direction difference(const State& to, const State& from) {
   return {.dx = to.x - from.x, .dlambda = to.lambda - from.lambda};
 }

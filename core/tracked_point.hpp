@@ -7,7 +7,7 @@
 
 namespace arcwall {
 
-/// Position of a body point and its derivatives in the unknowns it depends on (at most five).
+/// Stores the position of a material point and its derivatives by the unknowns it depends on (at most five).
 struct PointKinematics {
   static constexpr int max_unknowns = 5;
   template <int Rows>
@@ -19,29 +19,30 @@ struct PointKinematics {
   Local<2> jacobian{};                     ///< ∂position/∂unknowns
   std::array<LocalSquare, 2> curvature{};  ///< second derivatives of x and of z
 
-  Vec2 rate = Vec2::Zero();  ///< of the position by λ at fixed unknowns: not 0 where supports move the point
-  Local<2> jacobian_rate{};  ///< of the jacobian by λ, likewise
+  Vec2 rate = Vec2::Zero();  ///< ∂position/∂λ at fixed unknowns: nonzero if supports move the point
+  Local<2> jacobian_rate{};  ///< ∂jacobian/∂λ at fixed unknowns
 };
 
-/// Where a body point is and how it moves.
+/// Stores position and velocity of a material point.
 struct PointMotion {
   Vec2 position{}, velocity{};
 };
 
-/// A point of the body that may touch an obstacle: where it is and how it moves with the unknowns.
+/// Evaluates the position of a possible contact point and its derivatives.
 class TrackedPoint {
  public:
   virtual ~TrackedPoint() = default;
 
-  /// Indices in x of the unknowns the position depends on; at most PointKinematics::max_unknowns, none negative.
+  /// Returns indices in x of the unknowns of the position: at most PointKinematics::max_unknowns, all ≥ 0.
   virtual const std::vector<Index>& unknowns() const = 0;
 
+  /// Returns the position [length].
   virtual Vec2 position(const State& state) const = 0;
 
-  /// The velocity is that along the direction.
+  /// Returns the position and its derivative along the direction.
   virtual PointMotion motion(const State& state, const Direction& direction) const = 0;
 
-  /// Sizes follow unknowns().
+  /// Writes position and derivatives; sizes as unknowns().
   virtual void kinematics(const State& state, PointKinematics& out) const = 0;
 };
 

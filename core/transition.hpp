@@ -11,24 +11,24 @@
 
 namespace arcwall {
 
-/// What the equilibria of a continuum have in common: only the sum of the lengths of their flat parts is determined.
+/// Describes a family of equilibria in which only the total length of several contact zones is determined.
 struct Continuum {
-  Index parts = 0;      ///< flat parts on walls, new ones being points yet
+  Index parts = 0;      ///< number of contact zones; new ones are still points
   double energy = 0.0;  ///< total potential [force·length]
-  double length = 0.0;  ///< sum of the lengths of the parts [length]
+  double length = 0.0;  ///< total length of the zones [length]
 };
 
-/// What lies behind a validity bound of a piece: another piece that meets it there.
+/// Describes the next active set and layout beyond a validity bound.
 struct Transition {
   enum class Change {
-    spreads,      ///< a point contact becomes a line
-    gathers,      ///< a line becomes a point contact; the place is known on the piece ahead alone
-    splits,       ///< a part on a wall lifts off inside
+    spreads,      ///< a contact point becomes a contact zone
+    gathers,      ///< a contact zone becomes a contact point; only the new layout locates it
+    splits,       ///< a contact zone separates in its interior
     passes,       ///< a contact at the end of a member moves inside, or one that has come to it stays there
     joins,        ///< the reverse, or a whole tail is touched; the place is known on the piece ahead alone
-    remeshed,     ///< the same point in other unknowns
-    continuum,    ///< a continuum of equilibria with the same load and energy
-    unsupported,  ///< something that is not modelled
+    remeshed,     ///< the same point with other unknowns
+    continuum,    ///< a family of equilibria with the same load and energy
+    unsupported,  ///< a contact configuration that is not modelled
   };
   Change change = Change::remeshed;
   std::string detail{};  ///< of the last two: what and why

@@ -21,19 +21,19 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, SparseIndex>;
 constexpr double pi = 3.14159265358979323846;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Whether all entries are numbers: 0 · x is none where x is not finite. In one pass without branches.
+/// Returns true if all entries are finite.
 template <typename Entries>
 bool all_finite(const Eigen::DenseBase<Entries>& entries) {
   return (entries.derived().array() * 0.0).sum() == 0.0;
 }
 
-/// v turned by +90° (anticlockwise).
+/// Returns v rotated by +90° (anticlockwise).
 inline Vec2 perp(const Vec2& v) { return {-v.y(), v.x()}; }
 
-/// a × b: the area between two sides, positive if b lies to the left of a.
+/// Returns a × b, positive if b points to the left of a.
 inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// By how much a has to turn to point as b does, anticlockwise, from −π to π [rad].
+/// Returns the angle from a to b, anticlockwise, in [−π, π] [rad].
 inline double turn_between(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b), a.dot(b)); }
 
 }  // namespace arcwall

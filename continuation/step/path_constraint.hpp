@@ -10,24 +10,23 @@
 
 namespace arcwall {
 
-/// Where a constraint meets a line: the root that is taken and, of a quadratic, the one that is not.
+/// Stores the roots τ of a constraint along a line: the one taken and, of a quadratic, the other one.
 struct ConstraintRoots {
   double taken = 0.0;
   std::optional<double> other{};
 };
 
-/// One scalar equation c(x, λ) = 0 that closes F(x, λ) = 0 in a step.
+/// Defines the scalar equation c(x, λ) = 0 that closes F(x, λ) = 0 in a step.
 ///
-/// `value` and `gradient` are consistent, as for every Observable; the updated normal plane alone has no value, as it
-/// is defined from iterate to iterate.
+/// gradient() is the derivative of value(), except for UpdatedPlaneConstraint, whose value is always 0.
 class PathConstraint : public Observable {
  public:
-  /// τ such that the state moved along the line fulfils the constraint: linearised, unless a constraint knows better.
-  /// Empty if there is none (complex roots).
+  /// Returns τ at which the state moved along the line satisfies the constraint, linearised by default. Empty if the
+  /// roots are complex.
   virtual std::optional<ConstraintRoots> advance(const State& at, const EquilibriumLine& line) const;
 };
 
-/// The quantity has a given value: load and displacement control, stop rules, values to land on.
+/// Prescribes the value of a quantity: load and displacement control, stop bounds, output points.
 class ValueConstraint final : public PathConstraint {
  public:
   /// `quantity` must outlive this.
@@ -40,7 +39,7 @@ class ValueConstraint final : public PathConstraint {
   double target_;
 };
 
-/// Guard j is zero: landing on a change of contact.
+/// Prescribes guard j = 0: location of an active-set change.
 class GuardConstraint final : public PathConstraint {
  public:
   /// `system` must outlive this.
@@ -68,7 +67,7 @@ class PlaneConstraint final : public PathConstraint {
   double offset_;
 };
 
-/// ⟨b − a, X − a⟩ = part · |b − a|²: the plane across the chord of a stretch of path.
+/// ⟨b − a, X − a⟩ = part · |b − a|²: the plane normal to a chord of the path.
 class ChordPlaneConstraint final : public PathConstraint {
  public:
   /// All three must outlive this.
@@ -122,11 +121,11 @@ class SphereConstraint final : public PathConstraint {
   double radius_;
 };
 
-/// How a step is closed.
+/// Path-following methods.
 enum class PathMethod { load, displacement, riks, normal_plane, cylindrical, spherical, pseudo_arclength };
 
-/// The constraint of one step of length s along the unit tangent. `control` is the controlled quantity of
-/// `displacement`. What is given must outlive the constraint.
+/// Returns the constraint of a step of length s [path metric] along the unit tangent. `control`: controlled quantity of
+/// `displacement`, else null. All arguments by reference or pointer must outlive the result.
 std::unique_ptr<PathConstraint> step_constraint(PathMethod method, const Metric& metric, const State& from,
                                                 const Direction& tangent, double s, const Observable* control);
 

@@ -8,18 +8,18 @@
 
 namespace arcwall {
 
-/// How the length of the next step is chosen.
+/// Options of the step length.
 struct StepOptions {
   double first = 0.02;  ///< increment of λ of the first predictor; its sign is the direction [-]
   double min = 1e-8;    ///< arc length below which the branch ends [path metric]
-  double max = 0.2;     ///< of the structure's motion [path metric]
-  double max_lambda = std::numeric_limits<double>::infinity();  ///< of the change of λ
+  double max = 0.2;     ///< largest motion of the structure in a step [path metric]
+  double max_lambda = std::numeric_limits<double>::infinity();  ///< largest change of λ in a step [-]
   int wanted_iterations = 5;                                    ///< a step is scaled by wanted/used …
   double wanted_turn = 0.2;  ///< … and by wanted/seen turn of the tangent [rad], within [¼, 2]
-  double max_turn = 0.6;     ///< a step over which the tangent turns more is not trusted [rad]
+  double max_turn = 0.6;     ///< a step with a larger tangent angle is rejected [rad]
 };
 
-/// The length of the next step.
+/// Controls the length of the next step [path metric].
 class StepControl {
  public:
   StepControl(const StepOptions& options, double first) : options_(options), length_(std::min(first, options.max)) {}
@@ -27,7 +27,7 @@ class StepControl {
   double length() const { return length_; }
   bool too_short() const { return length_ < options_.min; }
 
-  /// After a success: `iterations` of the corrector, `turn` of the tangent over a step of length `taken`.
+  /// Adapts the length after an accepted step: corrector iterations, tangent angle [rad], length `taken`.
   void succeeded(int iterations, double turn, double taken) {
     const double by_iterations = double(options_.wanted_iterations) / std::max(iterations, 1);
     const double by_turn = options_.wanted_turn / std::max(turn, 1e-12);
@@ -36,8 +36,8 @@ class StepControl {
     length_ = factor >= 1.0 ? std::max(length_, taken * factor) : std::max(taken, 0.5 * length_) * factor;
   }
 
-  /// Before a step along the unit tangent: `motion` is the structure's part of it, in [0, 1], `lambda_rate` that of λ.
-  /// A step is at most `max` long; where λ has the greater part, that is the structure's motion alone.
+  /// Limits the length before a step along the unit tangent. `motion`: norm of its part in x, in [0, 1]; `lambda_rate`:
+  /// dλ. `max` limits the step, or its motion alone if the part of λ is larger.
   void limit(double motion, double lambda_rate) {
     const double lambda_part = std::sqrt(std::max(0.0, 1.0 - motion * motion));
     if (motion > 0.0) length_ = std::min(length_, options_.max * std::max(1.0, lambda_part / motion));
@@ -47,7 +47,7 @@ class StepControl {
   void failed(double taken) { length_ = 0.5 * taken; }
   void restart(double length) { length_ = std::clamp(length, options_.min, options_.max); }
 
-  /// Visits what changes, as Tracer::serialize().
+  /// Writes or reads the length, as Tracer::serialize().
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(length_);
