@@ -2,7 +2,7 @@
 
 namespace arcwall {
 
-/// A number that λ drives: constant + λ · proportional.
+/// Stores a number that depends on λ: constant + λ · proportional.
 struct Driven {
   double constant = 0.0;
   double proportional = 0.0;

@@ -9,8 +9,8 @@
 
 namespace arcwall {
 
-/// What resists the displacements of a member's places, by length of its stress-free axis: linear springs in x and in
-/// z, springs with laws, and sums of these.
+/// Models a foundation by length of a member's stress-free axis: linear springs in x and z, springs with laws, and sums
+/// of these.
 class FoundationLaw {
  public:
   FoundationLaw() = default;
@@ -18,14 +18,14 @@ class FoundationLaw {
 
   void add(const Vec2& stiffness) { stiffness_ += stiffness; }
 
-  /// In x (0) or in z (1); forces of the law are by length [force/length].
+  /// Adds a law in x (0) or z (1); its forces are by length [force/length].
   void add(Index direction, std::shared_ptr<const SpringLaw> law) { laws_.push_back({direction, std::move(law)}); }
 
   bool is_zero() const { return stiffness_.isZero(0.0) && laws_.empty(); }
 
   struct Response {
     double energy = 0.0;
-    Vec2 force = Vec2::Zero(), stiffness = Vec2::Zero();  ///< in x and in z, which know nothing of each other
+    Vec2 force = Vec2::Zero(), stiffness = Vec2::Zero();  ///< in x and in z, uncoupled
   };
   Response at(const Vec2& displacement) const {
     Response out{.force = stiffness_.cwiseProduct(displacement), .stiffness = stiffness_};

@@ -4,36 +4,36 @@
 
 namespace arcwall {
 
-/// The force of a spring by its stretch, through given points. Beyond the first and the last point it is constant.
+/// Interpolates the force of a spring as a function of its elongation. It is constant beyond the first and last point.
 ///
-/// `smooth`: monotone between two points, with a continuous slope, at an inner point the weighted harmonic mean of the
-/// slopes beside it (Fritsch and Butland 1984), or 0 where these differ in sign, as at the first and the last point.
-/// `linear`: straight pieces between the points. Where two of them meet the law has a kink.
+/// `smooth`: monotone between points, C¹. The slope at an inner point is the weighted harmonic mean of the adjacent
+/// slopes (Fritsch and Butland 1984). It is 0 if they differ in sign, and at the first and last point.
+/// `linear`: piecewise linear, with kinks.
 class SpringLaw {
  public:
   enum class Interpolation { smooth, linear };
 
-  /// `stretch` strictly increasing, at least two, one of them 0 without force; as many forces.
+  /// `stretch` [length]: at least two, strictly increasing, one of them 0. `force` [force]: same size, 0 at stretch 0.
   SpringLaw(std::vector<double> stretch, std::vector<double> force,
             Interpolation interpolation = Interpolation::smooth);
 
   struct Response {
-    double energy = 0.0;  ///< from stretch 0 on
+    double energy = 0.0;  ///< 0 at stretch 0
     double force = 0.0, stiffness = 0.0;
   };
 
-  /// At a kink the stiffness is that behind it.
+  /// Returns energy, force and stiffness; at a kink, the stiffness beyond it.
   Response at(double stretch) const;
 
-  /// Where the stiffness of straight pieces jumps, and by how much it is greater behind than before.
+  /// Stores a kink: its position, and the increase of stiffness across it.
   struct Kink {
     double stretch = 0.0, jump = 0.0;
   };
 
-  /// In their order; none of a smooth law.
+  /// Returns the kinks by increasing stretch; empty for a smooth law.
   std::vector<Kink> kinks() const;
 
-  /// From the first point to the last.
+  /// Returns the distance of the first and the last point.
   double width() const { return stretch_.back() - stretch_.front(); }
 
   bool operator==(const SpringLaw&) const = default;

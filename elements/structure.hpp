@@ -24,27 +24,29 @@
 
 namespace arcwall {
 
-/// What a node can do. Every joint has x and z; rotations belong to the members that are rigidly joined there; e and ξ
-/// of the Essenburg theory (see EssenburgNode) to members that go on straight there.
+/// Kinds of degrees of freedom. Each joint has x and z. Rigidly joined members share a rotation. Members that continue
+/// straight share the thickness unknowns e and ξ of the Essenburg theory (see EssenburgNode).
 enum class Freedom : std::uint8_t { x, z, rotation, thickness, thickness2 };
 
+/// Theories of members: beams, and a bar (truss).
 enum class Theory { euler_bernoulli, elastica, reissner, essenburg, truss };
 
-/// A load is multiplied by λ or held while λ varies.
+/// A load is proportional to λ or constant.
 enum class LoadKind { proportional, constant };
 
-/// Whether a load along a member is given in x and z, or along its stress-free axis and across it to the left at each
-/// place. It is dead either way.
+/// Axes of a distributed load: x and z, or along the stress-free axis and normal to it (positive to the left). Both are
+/// dead loads.
 enum class LoadFrame { global, member };
 
-/// A sequence of elements between two joints.
+/// Describes a member: a sequence of elements between two joints.
 struct MemberDescription {
   std::string name{};
   Index from = 0, to = 0;  ///< joints
   std::shared_ptr<const Axis> axis{};
   std::vector<SineDeviation> imperfection{};
   Theory theory = Theory::euler_bernoulli;
-  int order = 2;  ///< exact, essenburg: 1 or 2, the degree of the shape functions; elastica: 4 or 6, of convergence
+  int order =
+      2;  ///< reissner, essenburg: degree of the shape functions, 1 or 2; elastica: order of convergence, 4 or 6
   QuadraticTerm quadratic = QuadraticTerm::fixed;  ///< essenburg
   TrussStrain strain = TrussStrain::green;
   Section section{};
@@ -52,36 +54,35 @@ struct MemberDescription {
   bool hinge_from = false, hinge_to = false;
 };
 
-/// Freedoms of a section whose thickness changes.
+/// Indices of the thickness degrees of freedom of a section.
 struct ThicknessFreedoms {
   Index e = 0, xi = 0;
 };
 
-/// A section of a member at one of its nodes.
+/// Stores the section of a member at one of its nodes.
 struct MemberSection {
   Index node = 0;                                  ///< in the structure
-  std::optional<Index> rotation{};                 ///< freedom; a bar has none
+  std::optional<Index> rotation{};                 ///< degree of freedom; empty for a bar
   std::optional<ThicknessFreedoms> thickness{};    ///< essenburg
   AxisPoint axis{}, shape{};                       ///< without and with imperfection
   QuadraticTerm quadratic = QuadraticTerm::fixed;  ///< essenburg
-  double fraction = 0.0;                           ///< of the member's arc length
-  double tributary = 0.0;                          ///< length of axis that a contact force here stands for
+  double fraction = 0.0;                           ///< of the member's arc length, in [0, 1]
+  double tributary = 0.0;                          ///< tributary length of a contact force [length]
 
   EssenburgNode kinematics() const;
 };
 
-/// The mesh of a member: node k of n + 1, at equal spacing of the axis' arc length. Elements of higher order have a
-/// middle node besides, which is a node of the structure but none of the mesh: nothing is joined, loaded or measured
-/// there.
+/// Stores the mesh of a member: n + 1 nodes at equal arc length of the axis. Middle nodes of higher-order elements
+/// belong to the structure but not to the mesh: they carry no joint, load or monitor.
 struct MemberMesh {
   std::string name{};
   std::vector<Index> nodes{};                     ///< index of each node in the structure
-  std::vector<std::optional<Index>> rotations{};  ///< freedom of the member's rotation at each node; a bar has none
+  std::vector<std::optional<Index>> rotations{};  ///< degree of freedom of the rotation at each node; empty for a bar
   AxisPoints axis{}, shape{};                     ///< without and with imperfection
   std::optional<double> height{};                 ///< of the section
-  std::vector<Index> middle_nodes{};              ///< of each element, in the structure; empty where there are none
-  std::vector<Index> middle_rotations{};          ///< their freedoms, as many
-  double length = 0.0;                            ///< of the axis
+  std::vector<Index> middle_nodes{};              ///< of each element, in the structure; may be empty
+  std::vector<Index> middle_rotations{};          ///< their degrees of freedom, same size
+  double length = 0.0;                            ///< of the axis [length]
   // Of the Essenburg theory alone, else empty:
   std::vector<ThicknessFreedoms> thickness{}, middle_thickness{};  ///< at each node, and at each middle node
   std::vector<AxisPoint> middle_axis{}, middle_shape{};            ///< at the middle nodes
@@ -89,23 +90,25 @@ struct MemberMesh {
 
   double fraction(std::size_t k) const { return double(k) / double(nodes.size() - 1); }
 
-  /// At a node of the mesh.
+  /// Returns the section at node k of the mesh.
   MemberSection section(std::size_t k) const;
 
-  /// Where contact is tied to the mesh, in the order along the member: its nodes; of the Essenburg theory, whose
-  /// contact forces are pressures, the middle nodes too.
+  /// Returns the sections of node contact in order along the member: at the nodes, and for the Essenburg theory also at
+  /// the middle nodes.
   std::vector<MemberSection> contact_sections() const;
 };
 
 class SlidingStructure;
 class StructureBuilder;
 
-/// Beams and bars between joints, supports, springs to ground and loads. Freedoms count every x, z, rotation and change
-/// of thickness, from the stress-free state; unknowns x are those u that no support holds, the others have values ū:
+/// Models beams and bars between joints, with supports, springs and loads. The degrees of freedom u are all x, z,
+/// rotations and changes of thickness, from the stress-free state. The unknowns x are the unconstrained u; supports
+/// prescribe the others, ū:
 ///
-///     F(x, λ) = f(u, λ) + terms of single freedoms, see NodalTerms;   F_λ = ∂f/∂λ + K_xh ū′ + …
+///     F(x, λ) = f(u, λ) + terms of single degrees of freedom, see NodalTerms;   F_λ = ∂f/∂λ + K_xh ū′ + …
 ///
-/// K_xh are the columns of the stiffness by held freedoms, and ū′ the rates of their values by λ.
+/// K_xh: columns of the tangent stiffness for the prescribed degrees of freedom. ū′ = dū/dλ. Build it by
+/// StructureBuilder.
 class Structure final : public System {
  public:
   Index size(const Piece&) const override { return assembly_.unknown_count(); }
@@ -113,44 +116,44 @@ class Structure final : public System {
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
 
-  /// ds² = mean over nodes of |Δu|²/L² + mean of Δθ², L = length_scale(); changes of thickness follow these.
+  /// Returns the weights of ds² = mean over nodes of |Δu|²/L² + mean of Δθ², L = length_scale().
   Vector weights(const Piece&) const override;
 
   std::vector<Index> turning_sets(const Piece&) const override;
 
   double squared_motion_by_lambda(const Piece&) const override;
 
-  /// Diagonal of the box around the stress-free structure [length].
+  /// Returns the diagonal of the bounding box of the stress-free structure [length].
   double length_scale() const { return length_scale_; }
 
-  /// Greatest reference load, moments divided by the length scale, or what holds a member that is heated from
-  /// expanding [force]; 0 if none varies.
+  /// Returns the largest reference load, with moments over the length scale, or the force that prevents thermal
+  /// expansion [force]. 0 if nothing varies with λ.
   double force_scale() const { return force_scale_; }
 
-  /// Size of the round-off in nodal forces: stiff short elements between nodes that are far from the origin [force].
+  /// Returns the size of the round-off in nodal forces [force].
   double force_roundoff() const;
 
   const std::vector<MemberMesh>& members() const { return members_; }
   Index node_count() const { return static_cast<Index>(positions_.size()); }
   const Vec2& position(Index node) const { return positions_[static_cast<std::size_t>(node)]; }  ///< stress-free
-  /// The freedom of a node in x or z.
+  /// Returns the degree of freedom of a node in x or z.
   Index freedom(Index node, Freedom which) const {
     return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z);
   }
 
-  /// The unknown of a freedom, empty if a support holds it.
+  /// Returns the unknown of a degree of freedom; empty if it is prescribed.
   std::optional<Index> unknown(Index freedom) const;
 
-  /// Displacement or rotation; where it is held, what the support gives it.
+  /// Returns the displacement [length] or rotation [rad], free or prescribed.
   double value(const State& state, Index freedom) const;
 
-  /// The rate of this value by λ at fixed unknowns: that of the support, 0 of a freedom that is not held.
+  /// Returns ∂value/∂λ at fixed unknowns; 0 if the degree of freedom is not prescribed.
   double held_rate(Index freedom) const { return nodal_.support(freedom).proportional; }
 
-  /// Current position of a node.
+  /// Returns the current position of a node [length].
   Vec2 current(const State& state, Index node) const;
 
-  /// The node and freedom that an unknown stands for.
+  /// Stores the node and the kind of a degree of freedom.
   struct Meaning {
     std::int32_t node;
     Freedom freedom;
@@ -158,29 +161,29 @@ class Structure final : public System {
   Meaning meaning(Index unknown) const;
   Meaning meaning_of_freedom(Index freedom) const { return meaning_of_freedom_[static_cast<std::size_t>(freedom)]; }
 
-  /// Force (or moment) that a support exerts on the structure through a freedom it holds; 0 in one that is free.
-  /// Contact forces on the supported node itself are not seen.
+  /// Returns the support reaction on the structure in a degree of freedom [force or force·length]; 0 if it is free.
+  /// Excludes contact forces on the supported node itself.
   double reaction(const State& state, Index freedom) const;
   Row reaction_gradient(const State& state, Index freedom) const;
 
-  // --- what it is made of, for those who sum it themselves ---------------------------------------------------------
+  // --- elements and terms, for other assemblies ----------------------------------------------------------------------
 
-  /// Elements are numbered member by member, along each; those that were added come last.
+  /// Returns the number of elements: numbered along each member, then those of add_element().
   Index element_count() const { return static_cast<Index>(elements_.size()); }
   const Element& element(Index e) const { return elements_[e]; }
 
-  /// Of the local unknowns of an element.
+  /// Returns the degrees of freedom of an element's local unknowns.
   ShiftedIndices element_freedoms(Index e) const { return element_freedoms_[e]; }
 
-  /// A load or a foundation along an element, whose unknowns its potential has.
+  /// Stores a load or a foundation along an element; its potential has the element's unknowns.
   struct ElementLoad {
     std::shared_ptr<const Element> potential;
     Index element;             ///< also its block of the assembly
-    bool is_grounded = false;  ///< resists a translation: a foundation
+    bool is_grounded = false;  ///< a foundation: it resists translation
   };
   const std::vector<ElementLoad>& element_loads() const { return element_loads_; }
 
-  /// Which of them act on an element.
+  /// Returns the numbers of the element loads that act on an element.
   std::span<const std::uint32_t> loads_of_element(Index e) const {
     if (first_load_of_element_.empty()) return {};
     const auto first = first_load_of_element_[static_cast<std::size_t>(e)];
@@ -188,15 +191,15 @@ class Structure final : public System {
     return std::span(loads_by_element_).subspan(first, last - first);
   }
 
-  /// Loads, supports and springs of single freedoms.
+  /// Returns loads, supports and springs of single degrees of freedom.
   const NodalTerms& nodal_terms() const { return nodal_; }
 
-  /// The structure with the updated form of its elements, stress-free or after an increment that led to a state: see
+  /// Returns the structure in the updated Lagrangian formulation, stress-free or with `state` as reference: see
   /// IncrementalStructure.
   std::unique_ptr<Structure> updated() const;
   std::unique_ptr<Structure> updated(const State& state) const;
 
-  /// Whether all elements have that form.
+  /// Returns true if all elements have that formulation.
   bool can_be_updated() const;
 
  private:
@@ -244,79 +247,83 @@ class Structure final : public System {
   std::vector<std::int32_t> turning_set_;  // of each freedom
 };
 
-/// Describes a structure step by step; build() makes it.
+/// Collects the description of a structure; build() creates it.
 class StructureBuilder {
  public:
-  /// A joint of members. Returns its node.
+  /// Adds a joint at a position [length] and returns its node.
   Index add_joint(const Vec2& position);
 
-  /// So many members will be added: no room is kept for more.
+  /// Reserves memory for `count` members.
   void expect_members(std::size_t count);
 
-  /// Meshes the member at once, so that its inner nodes can be loaded. Returns its index.
+  /// Adds and meshes a member; returns its index.
   Index add_member(MemberDescription member);
   const MemberMesh& mesh(Index member) const { return meshes_[static_cast<std::size_t>(member)]; }
 
-  /// The rotation that the rigidly joined member ends at a joint share; empty if there are none.
+  /// Returns the rotation shared by the rigidly joined member ends; empty if there are none.
   std::optional<Index> shared_rotation(Index joint) const { return shared_rotation_[static_cast<std::size_t>(joint)]; }
 
-  /// Of the member ends at a joint whose thickness changes.
+  /// Returns the thickness degrees of freedom of the member ends at a joint; may be empty.
   std::vector<ThicknessFreedoms> thickness(Index joint) const;
 
+  /// Returns the degree of freedom of a node in x or z.
   Index freedom(Index node, Freedom which) const {
     return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z);
   }
 
-  /// A support that holds a freedom, or moves it: a displacement [length] or rotation [rad] from the stress-free state.
+  /// Prescribes a degree of freedom: displacement [length] or rotation [rad] from the stress-free state.
   void fix(Index freedom, const Driven& value = {}) { nodal_.hold(freedom, value); }
 
-  /// A linear spring between a freedom and the ground, stress-free with the structure [force/length, force·length].
+  /// Adds a linear spring to the ground, stress-free with the structure [force/length or force·length].
   void add_ground_stiffness(Index freedom, double stiffness) { nodal_.add_ground_stiffness(freedom, stiffness); }
 
-  /// The same between two freedoms, of which one is held or both belong to members.
+  /// Adds a linear spring between two degrees of freedom: one is prescribed, or both belong to members.
   void add_spring(Index first, Index second, double stiffness) { nodal_.add_spring(first, second, stiffness); }
 
-  /// A spring of another law, to the ground where there is no first freedom; find_mechanism() does not see it.
+  /// Adds a nonlinear spring; without `first`, to the ground. find_mechanism() ignores it.
   void add_spring(std::optional<Index> first, Index second, std::shared_ptr<const SpringLaw> law) {
     nodal_.add_spring({.first = first, .second = second, .law = std::move(law)});
   }
 
+  /// Adds a load [force], or a moment [force·length] on a rotation, positive in the degree of freedom.
   void add_load(Index freedom, double value, LoadKind kind);
+
+  /// Adds a dead load along a member, by length of the stress-free axis [force/length].
   void add_distributed_load(Index member, const Vec2& load, LoadKind kind, LoadFrame frame = LoadFrame::global);
 
-  /// A pressure on the deformed axis of a member that is no bar, to the right of the direction of travel, by length of
-  /// this axis [force/length]. It has a potential where open_pressed_joint() finds nothing.
+  /// Adds a follower pressure on a beam, positive to the right of the member direction, by deformed length
+  /// [force/length]. It is conservative if open_pressed_joint() is empty.
   void add_pressure(Index member, const Driven& pressure);
 
-  /// A joint where the pressure on members ends and that no support holds in x or z: there the work of the pressure
-  /// depends on the way.
+  /// Returns a joint at which a pressure ends, free in x and z; its work there depends on the path. Empty if there is
+  /// none.
   std::optional<Index> open_pressed_joint() const;
 
-  /// A strain and a curvature that the sections of a member take without force, as temperatures make them. Not for the
-  /// Essenburg theory; bars have no curvature.
+  /// Adds a stress-free strain and curvature, for example thermal. Not for the Essenburg theory; bars have no
+  /// curvature.
   void add_thermal_strain(Index member, const ThermalStrain& thermal);
 
-  /// Springs to the ground all along a member that is no bar: force per length of the stress-free axis and of
-  /// displacement, in x and in z [force/length²]. find_mechanism() does not see them.
+  /// Adds a linear foundation along a beam, in x and z, by length of the stress-free axis [force/length²].
+  /// find_mechanism() ignores it.
   void add_foundation(Index member, const Vec2& stiffness);
 
-  /// The same in x or in z by a law, whose forces are by length [force/length].
+  /// Adds a nonlinear foundation in x or z; the forces of its law are by length [force/length].
   void add_foundation(Index member, Freedom direction, std::shared_ptr<const SpringLaw> law);
 
-  /// An element of any kind between freedoms that members have, at most Element::max_unknowns, in the order of its
-  /// unknowns. Only for meshes whose nodes are fixed; find_mechanism() does not see it.
+  /// Adds an element between degrees of freedom of members, in the order of its unknowns; at most
+  /// Element::max_unknowns. Only for build(), not for build_sliding(); find_mechanism() ignores it.
   void add_element(std::shared_ptr<const Element> element, std::vector<Index> freedoms);
 
-  /// The structure; `ramp` makes the constant loads and values of supports the proportional ones and leaves the others
-  /// out, so that a path in λ from 0 to 1 applies them.
+  /// Returns the structure. `ramp`: scale the constant loads and prescribed values with λ and omit the proportional
+  /// ones; a path from λ = 0 to 1 then applies the preload.
   std::unique_ptr<Structure> build(bool ramp = false) const;
 
-  /// The same for meshes with breakpoints that move. Only beams without shear: see can_slide(). Members for which
-  /// `alike(a, b)` is false are not joined to one strand, however they meet: walls see strands.
+  /// Returns the structure with moving mesh nodes, for moving contact points. Requires can_slide(). Members a, b with
+  /// `alike(a, b)` false are never joined to one member run.
   std::unique_ptr<SlidingStructure> build_sliding(
       bool ramp = false, const std::function<bool(const std::string&, const std::string&)>& alike = nullptr) const;
 
-  /// Whether all members are of a theory for which build_sliding() is meant, and there are no other elements.
+  /// Returns true if build_sliding() supports all members and there are no added elements.
   bool can_slide() const;
 
  private:

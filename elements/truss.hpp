@@ -5,14 +5,14 @@
 
 namespace arcwall {
 
-/// Measure of a bar's strain between its lengths L (stress-free) and l.
+/// Strain measures of a bar with stress-free length L and current length l.
 enum class TrussStrain {
   green,        ///< (l² − L²) / (2L²)
   engineering,  ///< (l − L) / L
   log,          ///< ln(l / L)
 };
 
-/// A bar that carries axial force only: U = ½ EA L ε². Unknowns: u1, w1, u2, w2.
+/// Evaluates a bar with axial force only: U = ½ EA L ε² [force·length]. Unknowns: u1, w1, u2, w2.
 class Truss final : public Element {
  public:
   Truss(const Vec2& chord, double EA, TrussStrain strain)
@@ -21,8 +21,7 @@ class Truss final : public Element {
   int unknown_count() const override { return 4; }
   double evaluate(const double* u, double* f, double* K) const override { return evaluate(u, 0.0, f, K, nullptr); }
 
-  /// The same where the bar is without force at a strain e: U = ½ EA L (ε − e)². `f_strain`, where it is not null,
-  /// receives ∂f/∂e.
+  /// Evaluates the bar with stress-free strain e: U = ½ EA L (ε − e)². Writes ∂f/∂e to `f_strain` unless null.
   double evaluate(const double* u, double e, double* f, double* K, double* f_strain) const;
 
  private:

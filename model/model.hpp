@@ -22,97 +22,96 @@ namespace arcwall {
 
 struct StructureOfDeck;
 
-/// A column of path.csv.
+/// Describes a monitor, a column of path.csv.
 struct MonitorColumn {
   std::string name{};
   std::string unit{};  ///< `cm`, `rad`, `kN`, `kN cm`; without brackets
   deck::Component component = deck::Component::z;
   std::shared_ptr<const Observable> quantity{};  ///< with the deck's sign
-  std::shared_ptr<const Observable> raw{};       ///< without; null of a place
-  bool is_place = false;                         ///< where the greatest along a member is, whose component this is
+  std::shared_ptr<const Observable> raw{};       ///< without the deck's sign; null for a position
+  bool is_place = false;                         ///< the position of a maximum along a member
 };
 
-/// A deck made ready to be traced: the model, what is read off it, and how it is followed.
+/// Builds from a deck the system, its monitors and the options of tracing.
 class Model {
  public:
-  /// Builds the model. Throws InputError with all diagnostics: what this version does not support, a mechanism, a point
-  /// that is inside a wall, a load that moves nothing.
+  /// Builds the model. Throws InputError with all diagnostics: an unsupported feature, a mechanism, a point inside a
+  /// wall, a load without effect.
   explicit Model(deck::Deck deck);
 
-  /// What is traced: of a deck with stages that of this model's stage.
+  /// Returns the traced deck: of a deck with stages, that of this model's stage.
   const deck::Deck& deck() const { return *deck_; }
 
-  /// What was given, with all stages.
+  /// Returns the given deck with all stages.
   const deck::Deck& whole_deck() const { return *whole_deck_; }
 
-  /// Ends the stage that was begun last at λ and builds the model of the next one. False if there is none.
+  /// Ends the last stage at λ and builds the model of the next one. Returns false if there is none.
   bool begin_stage(double lambda);
 
-  /// The λ at which stages have ended.
+  /// Returns λ at the end of each finished stage.
   const std::vector<double>& ended_stages() const { return ended_stages_; }
 
-  /// The model in whose terms the states of a stage are; stages count from 0.
+  /// Returns the model of a stage, counted from 0.
   Model& at_stage(Index stage) { return stage == 0 ? *this : *later_[static_cast<std::size_t>(stage) - 1]; }
   const Model& at_stage(Index stage) const { return const_cast<Model&>(*this).at_stage(stage); }
 
-  /// Which stage this model is of, and its name; empty without stages.
+  /// Return the number of this model's stage, and its name; empty without stages.
   Index stage() const { return stage_; }
   std::string stage_name() const {
     return whole_deck_->stages.empty() ? "" : whole_deck_->stages[static_cast<std::size_t>(stage_)].name;
   }
   const Structure& structure() const { return *structure_; }
 
-  /// The nodes of the deck's mesh among the walls; null if the deck has no walls.
+  /// Returns the contact of the mesh nodes; null if the deck has no walls.
   const MultiplierContact* contact() const { return contact_.get(); }
 
-  /// Contact points that slide; null where contact is tied to nodes.
+  /// Returns contact with moving points; null for node contact.
   const SlidingContact* sliding() const { return sliding_.get(); }
 
-  /// The state with what the piece of the system says of laws with kinks: by the stretches, where it does not.
+  /// Returns the state with the kink statuses of spring laws; computes missing ones from the elongations.
   State with_kinks(State state) const { return kinked_ ? kinked_->with_kinks(std::move(state)) : state; }
 
-  /// The structure of those; null likewise.
+  /// Returns the structure with moving mesh nodes; null for node contact.
   const SlidingStructure* sliding_structure() const { return sliding_structure_.get(); }
 
-  /// What is read off the structure in a state, whichever mesh it has.
+  /// Returns the view of the structure that is independent of its mesh.
   const Body& body() const { return *body_; }
 
-  /// What is traced: the structure with its contacts.
+  /// Returns the traced system: the structure with its contacts.
   const System& system() const;
 
-  /// Whether load increments are taken instead of steps along the equations' path.
+  /// Returns true if the deck requests load increments instead of path following.
   bool in_increments() const { return incremental_structure_ != nullptr; }
 
-  /// The increments from the start, whose reference configuration is the model's: for one run alone.
+  /// Returns load increments from a start. They change the model's reference configuration: use them for one run only.
   LoadIncrements increments(State start);
 
-  /// What tells the contacts of a state, whichever kind they are of; null if the deck has no walls.
+  /// Returns the query of a state's contacts, of either kind; null if the deck has no walls.
   const ContactQuery* contacts() const;
 
   const std::vector<MonitorColumn>& monitors() const { return monitors_; }
 
-  /// How many unstable directions a point has if all that λ moves were free to go along and driven by the force that it
-  /// has there, held: a dead load. Empty where no support is moved, or where that cannot be told.
+  /// Returns the number of unstable directions under load control: the prescribed displacements are free and their
+  /// reactions are constant. Empty if λ moves no support, or if the number is indeterminate.
   std::optional<Index> unstable_under_dead_load(const PathPoint& point) const;
   const TraceOptions& options() const { return options_; }
   const std::vector<Watch>& watched() const { return watched_; }
   const ExploreOptions& explore() const { return explore_; }
 
-  /// What the user should know though it is no error: one sentence each.
+  /// Returns warnings, one sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// The state at λ = 0 under the constant loads and movements, found by tracing their growth from nothing. `reason`
-  /// says why there is none.
+  /// Returns the equilibrium at λ = 0 under the constant loads and prescribed displacements, by tracing their growth.
+  /// Empty if there is none; `reason` then receives the cause.
   std::optional<State> start(std::string& reason) const;
 
-  /// The state in which the stage before has ended, as the start of this one.
+  /// Returns the end state of the previous stage as the start of this one.
   State taken_over(const State& last) const;
 
-  /// Why a state is none that contact could hold: a body that nothing but contact holds was pushed away. Empty if
-  /// there is none such.
+  /// Returns the message if a body without supports has moved away from its contacts; else empty.
   std::optional<std::string> adrift(const State& state) const;
 
-  /// Number of closed contact points.
+  /// Returns the number of closed contact points.
   Index closed_contacts(const State& state) const;
 
  private:

@@ -9,24 +9,24 @@
 #include "contact/candidate.hpp"
 #include "continuation/path_point.hpp"
 
-/// What the outputs say of a run: plain values, and the states they were read off.
+/// Results of a run: plain values for the output files, and the states.
 namespace arcwall {
 
-/// A monitor's name and unit.
+/// Stores a monitor's name and unit.
 struct RecordColumn {
   std::string name{};
   std::string unit{};  ///< without brackets; may be empty
 };
 
-/// A closed contact of a point: a row of contacts.csv.
+/// Stores a closed contact of a point, a row of contacts.csv.
 struct RecordForce {
   ContactLabel label{};
-  double x = 0.0;                    ///< present [length]
+  double x = 0.0;                    ///< current position [length]
   double force = 0.0;                ///< along the wall's normal [force]
   std::optional<double> pressure{};  ///< [force/length]; empty of a point force
 };
 
-/// A row of path.csv.
+/// Stores a point, a row of path.csv.
 struct RecordPoint {
   Index branch = 0;
   Index step = 0;  ///< counts from 0 within the branch
@@ -39,54 +39,54 @@ struct RecordPoint {
   double energy = 0.0;
   int iterations = 0;
   double residual = 0.0;             ///< relative
-  std::optional<EventKind> event{};  ///< of several the last that is no change of contact, else the last
+  std::optional<EventKind> event{};  ///< if several: the last that is no contact change, else the last
   std::vector<RecordForce> forces{};
   State state{};
 };
 
-/// A contact that changes.
+/// Stores a contact that changes.
 struct RecordContact {
   ContactLabel label{};
-  double x = 0.0;  ///< present, of the contact point [length]
+  double x = 0.0;  ///< current position of the contact point [length]
 };
 
-/// How λ of an event depends on a number of the deck.
+/// Stores the sensitivity of an event's λ to a parameter of the deck.
 struct RecordSensitivity {
   std::string key{};              ///< as the deck names it
-  double value = 0.0;             ///< of the number
-  std::optional<double> slope{};  ///< dλ/dvalue [1 over the number's unit]; empty: there is none, or none is known
-  std::string why_none{};         ///< then
+  double value = 0.0;             ///< of the parameter
+  std::optional<double> slope{};  ///< dλ/dvalue [1 over the parameter's unit]; empty: none exists or is known
+  std::string why_none{};         ///< cause of an empty slope
 };
 
-/// A contact point or a contact zone.
+/// Stores a contact point or a contact zone.
 struct RecordStretch {
   ContactLabel label{};  ///< of its first point
   bool is_zone = false;
-  double force = 0.0;  ///< in sum [force]
+  double force = 0.0;  ///< total [force]
 };
 
 struct RecordReturn;
 
-/// Where a structure falls to behind an event, at the same λ.
+/// Stores the state to which a structure jumps at constant λ after an event.
 struct RecordJump {
   std::string reason{},
-      why{};  ///< `no_equilibrium`, `not_found` or `two_destinations`, and in words why; empty where it comes to rest
+      why{};  ///< `no_equilibrium`, `not_found` or `two_destinations`, and its cause; empty if there is one state
   double lambda = 0.0;
   std::vector<double> monitors{};
   std::vector<RecordStretch> contacts{};  ///< along the members
-  std::string contact_pattern{};          ///< the walls of these, `upper lower upper`; `upper=` of a stretch
+  std::string contact_pattern{};          ///< the walls of these, `upper lower upper`; `upper=` for a zone
   double energy = 0.0;                    ///< total potential [force·length]
-  double energy_released = 0.0;           ///< energy before less energy behind [force·length]
+  double energy_released = 0.0;           ///< energy before minus energy after the jump [force·length]
   std::optional<Index> unstable{};
-  std::optional<Index> on_branch{};                 ///< the branch that passes through the state, if one does
+  std::optional<Index> on_branch{};                 ///< traced branch through the state; empty: none
   double arc = 0.0;                                 ///< along it
   std::size_t point = 0;                            ///< the last point of the record before it
-  std::shared_ptr<const RecordReturn> on_return{};  ///< λ taken back from there; null: no loss of stability is known
+  std::shared_ptr<const RecordReturn> on_return{};  ///< jump as λ reverses; null: no loss of stability is known
   std::optional<double> energy_dissipated{};        ///< energy lost in a closed loop [force·length]
-  std::vector<RecordJump> destinations{};  ///< of `two_destinations`: in one sense of the mode and in the other
+  std::vector<RecordJump> destinations{};           ///< of `two_destinations`: one for each sign of the mode
 };
 
-/// Where the state that was fallen to loses its stability as λ goes back.
+/// Stores the loss of stability of the destination of a jump as λ reverses.
 struct RecordReturn {
   double lambda = 0.0;
   EventKind kind = EventKind::limit_point;
@@ -94,6 +94,7 @@ struct RecordReturn {
   std::shared_ptr<const RecordJump> jump{};
 };
 
+/// Stores an event.
 struct RecordEvent {
   Index id = 0;  ///< counts from 0 over all branches
   EventKind kind = EventKind::start;
@@ -105,73 +106,74 @@ struct RecordEvent {
   std::optional<Index> unstable_before{}, unstable_after{};
   std::optional<Index> unstable_load_control{};  ///< of its point
   double residual = 0.0;                         ///< relative
-  double lambda_uncertainty = 0.0;               ///< half-width in λ of what is left uncertain
+  double lambda_uncertainty = 0.0;               ///< half-width in λ
   std::vector<RecordContact> contacts{};         ///< of a change of contact
   std::optional<Extremum> extremum{};            ///< of λ, at a limit point
   std::optional<std::string> monitor{};          ///< of a turning point
   std::optional<BranchEnd> branch_end{};         ///< of an end
-  std::optional<Continuum> continuum{};     ///< of a change of contact: the branch keeps to one member from here on
-  std::optional<BranchType> branch_type{};  ///< of a branch point
-  Index multiplicity = 1;                   ///< of a branch point: critical modes
-  bool unconfirmed = false;                 ///< zero is touched without a change of sign, as nearly as can be told
-  bool mesh_artefact = false;               ///< of a branch point that only contact at nodes makes
-  std::vector<Index> branches{};            ///< that leave a branch point
+  std::optional<Continuum> continuum{};          ///< equilibrium family of which the branch follows one from here on
+  std::optional<BranchType> branch_type{};       ///< of a branch point
+  Index multiplicity = 1;                        ///< of a branch point: critical modes
+  bool unconfirmed = false;                      ///< a zero without a detected change of sign
+  bool mesh_artefact = false;                    ///< of a branch point due to node contact alone
+  std::vector<Index> branches{};                 ///< that bifurcate at a branch point
   std::vector<double> mode{};  ///< rates of the monitors along the critical mode of a branch point; may be empty
-  std::vector<RecordSensitivity> sensitivity{};  ///< by the deck's numbers of `path.sensitivity`, in their order
-  std::shared_ptr<const RecordJump> jump{};      ///< null: the structure does not fall, or that was not asked for
+  std::vector<RecordSensitivity> sensitivity{};  ///< one a parameter of `path.sensitivity`, in their order
+  std::shared_ptr<const RecordJump> jump{};      ///< null: no jump, or jumps were not requested
 };
 
-/// What became of a try to find an equilibrium that no traced branch passes.
+/// Outcomes of an initial guess in the search for disconnected branches.
 enum class SearchOutcome {
-  found,         ///< it led to one
-  mirror_image,  ///< it began at the image of an equilibrium, which is one, too: not traced
-  known,         ///< it led to one that a traced branch passes, or that was found before
-  nodes_only,    ///< to one of contact at nodes, near which none of contact that slides was found
-  not_found,     ///< to none
+  found,         ///< it converged to a new equilibrium
+  mirror_image,  ///< it started at the mirror image of an equilibrium, itself an equilibrium: not traced
+  known,         ///< it converged to an equilibrium on a traced branch, or found before
+  nodes_only,    ///< it converged with node contact, but not with moving contact points
+  not_found,     ///< it did not converge
 };
 
 inline constexpr std::size_t search_outcomes = static_cast<std::size_t>(SearchOutcome::not_found) + 1;
 
-/// What becomes of an equilibrium that was found.
+/// States of an equilibrium that was found by search.
 enum class FoundFate {
-  pending,      ///< it is to be traced
-  traced,       ///< as a branch, or two
-  on_branch,    ///< a branch passes it that was found with another one
+  pending,      ///< not yet traced
+  traced,       ///< traced as one branch or two
+  on_branch,    ///< it lies on another branch found by search
   beyond_stop,  ///< it is beyond a bound of path.stop
-  not_traced,   ///< no step leads off it
+  not_traced,   ///< no step from it converged
 };
 
-/// An equilibrium that was found at some λ.
+/// Stores an equilibrium that was found by search.
 struct RecordFound {
   std::string contact_pattern{};  ///< its contacts, as of a jump
   std::vector<double> monitors{};
   double energy = 0.0;
   std::optional<Index> unstable{};
   FoundFate fate = FoundFate::pending;
-  std::vector<Index> branches{};  ///< that begin there, or the one that passes it
+  std::vector<Index> branches{};  ///< that start there, or pass through it
 };
 
-/// What was looked for at one λ, besides the traced branches.
+/// Stores the search for disconnected branches at one λ.
 struct RecordSearch {
   double lambda = 0.0;
   Index known = 0;                                ///< equilibria of traced branches
-  std::array<Index, search_outcomes> outcomes{};  ///< of the tries, by SearchOutcome
+  std::array<Index, search_outcomes> outcomes{};  ///< number of guesses by SearchOutcome
   std::vector<RecordFound> found{};
 };
 
+/// Stores a branch.
 struct RecordBranch {
   Index id = 0;
   Index stage = 0;                ///< counts from 0
-  std::optional<Index> parent{};  ///< the branch it leaves
-  std::optional<Index> origin{};  ///< the event at which it does
-  bool mirror_image = false;      ///< its mirror image leaves there too and is not traced
-  bool found = false;             ///< it begins at an equilibrium that was found beside the other branches
+  std::optional<Index> parent{};  ///< branch from which it bifurcates; empty: none
+  std::optional<Index> origin{};  ///< event of the bifurcation; empty: none
+  bool mirror_image = false;      ///< its mirror image also bifurcates there and is not traced
+  bool found = false;             ///< a disconnected branch
   Index points = 0;
   double least_lambda = infinity, greatest_lambda = -infinity;  ///< of its points
-  std::optional<BranchEnd> end{};                               ///< empty while it goes on
+  std::optional<BranchEnd> end{};                               ///< empty before the end
 };
 
-/// A branch point and its event, for the branches that leave it.
+/// Stores a branch point and the number of its event.
 struct RecordBranchPoint {
   std::shared_ptr<const BranchPoint> point{};
   Index event = 0;
@@ -191,15 +193,15 @@ struct Record {
   std::vector<RecordBranchPoint> branch_points{};
   std::vector<RecordSearch> searches{};
 
-  /// The number of the stage that a branch is of.
+  /// Returns the number of a branch's stage, counted from 0.
   Index stage_number(Index branch) const {
     return stages.empty() ? 0 : branches[static_cast<std::size_t>(branch)].stage;
   }
-  /// The name of the stage that a branch is of; empty without stages.
+  /// Returns the name of a branch's stage; empty without stages.
   std::string stage_of(Index branch) const {
     return stages.empty() ? "" : stages[static_cast<std::size_t>(stage_number(branch))];
   }
-  std::string steps{};  ///< lines of steps.jsonl; empty unless they are wanted
+  std::string steps{};  ///< lines of steps.jsonl; empty unless requested
 };
 
 }  // namespace arcwall

@@ -16,65 +16,63 @@ namespace arcwall {
 
 class Tracing;
 
-/// A deck, the model that it builds and the run that traces its paths, point by point. A session owns all of them and
-/// shares nothing with other sessions, so that several may run at once, each in a thread of its own.
-///
-/// A run can be kept as bytes and taken up again; it then goes on to the last bit as if it had never stopped.
+/// Owns a deck, its model and the run that traces its paths point by point. Sessions share no data: several may run at
+/// once, each in its own thread. A resumed run has bit-identical results.
 class Session {
  public:
-  /// Reads the deck in a file and builds its model; `assignments` are texts `key=value` that replace values of it.
-  /// Throws InputError with everything that is wrong with the deck.
+  /// Reads a deck file and builds its model. `assignments`: texts `key=value` that replace values of the deck. Throws
+  /// InputError with all errors of the deck.
   static Session open(const std::string& file, std::vector<std::string> assignments = {});
 
-  /// The same for a deck in memory.
+  /// Builds the model of a deck in memory. Throws InputError likewise.
   explicit Session(RunDescription description);
 
   Session(Session&& other) noexcept;
   Session& operator=(Session&& other) noexcept;
   ~Session();
 
-  /// Finds the equilibrium at which the paths start, without a point of them yet. False if there is none.
-  /// A run that has begun goes on as it is.
+  /// Computes the equilibrium at the start. Returns false if there is none: see problem(). No effect on a run that has
+  /// begun.
   bool begin();
 
-  /// Has branches traced from these equilibria too, in this order, where all others have ended: those that a search has
-  /// found in another run of the deck. Their states are of this model. Behind begin(), before next(); a checkpoint does
-  /// not keep them.
+  /// Adds disconnected branches from equilibria of this model, traced in this order after all others. Call it after
+  /// begin() and before next(). Checkpoints omit them.
   void trace_also(std::vector<BranchStart> found);
 
-  /// Why begin() found no equilibrium; empty if it found one, or has not been called.
+  /// Returns why begin() found no equilibrium; empty if it found one or was not called.
   const std::string& problem() const { return problem_; }
 
-  /// Traces one more point and returns it; null when every branch has ended or there is no start. Begins the run where
-  /// begin() has not been called. The pointer is valid until the next call.
+  /// Traces one more point and returns it, valid until the next call. Null when all branches have ended or there is no
+  /// start. Calls begin() if needed.
   const RecordPoint* next();
 
-  /// Whether every branch has its end.
+  /// Returns true if all branches have ended.
   bool has_ended() const;
 
-  /// Ends every branch where it is; the next call of next() records that. A checkpoint does not know of it but for its
-  /// argument. A run that has not begun has no branches, so that nothing happens. Where the structure falls to is not
-  /// looked for at the end of such a run; whoever goes on with it has that at its own end.
+  /// Ends all branches at their last points; the next call of next() records it. No effect on a run that has not begun.
+  /// Jumps are not computed at this end, but at the end of the resumed run. checkpoint() omits it except for its
+  /// argument.
   void stop(const BranchEnd& end);
 
   const RunDescription& description() const { return description_; }
   const Model& model() const { return *model_; }
 
-  /// All that was traced so far: branches, points and events.
+  /// Returns all branches, points and events traced so far.
   const Record& record() const { return *record_; }
   const std::vector<RecordPoint>& points() const { return record_->points; }
   const std::vector<RecordEvent>& events() const { return record_->events; }
 
-  /// Bytes from which the run can be taken up where it is; `stopped` is the reason from outside for which it ends here,
-  /// if there is one. begin() has found a start.
+  /// Returns bytes from which the run can be resumed. `stopped`: end imposed from outside; may be empty. Requires that
+  /// begin() returned true.
   std::string checkpoint(const std::optional<BranchEnd>& stopped = {});
 
   enum class Resume {
-    go_on,     ///< from where the run was stopped
-    as_ended,  ///< with the end that it had when it was stopped
+    go_on,     ///< continue from the last point
+    as_ended,  ///< restore the end at which the run was stopped
   };
 
-  /// The session of a checkpoint. Throws OutputError, which names `file`, for bytes that are none of this program.
+  /// Returns the session of a checkpoint. Throws OutputError, which names `file`, if the bytes are not readable by this
+  /// version.
   static Session from(std::string_view checkpoint, const std::string& file, Resume how);
 
  private:
@@ -90,8 +88,7 @@ class Session {
   bool stopped_ = false;  // from outside: nothing that takes long is done at the end
 };
 
-/// The session whose files are in a folder, from its checkpoint. Throws OutputError if there is none or it cannot be
-/// read.
+/// Returns the session of the checkpoint in a results folder. Throws OutputError if it is missing or unreadable.
 Session stored_session(const std::filesystem::path& folder, Session::Resume how);
 
 }  // namespace arcwall

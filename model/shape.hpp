@@ -7,7 +7,7 @@
 #include "model/member_stretch.hpp"
 #include "model/model.hpp"
 
-/// What a structure looks like in a state, and what it carries: for pictures and diagrams.
+/// Deformed shapes and section forces, for pictures and diagrams.
 namespace arcwall {
 
 struct MemberShape {
@@ -15,12 +15,12 @@ struct MemberShape {
   std::vector<ShapePoint> points{};  ///< from end to end, at fixed fractions and where contacts are
 };
 
-/// A closed contact. Of a part that is pressed on a wall by contact that slides, every node.
+/// Stores a closed contact; of a pressed contact zone with moving points, one a node.
 struct ContactMark {
   ContactLabel label{};
-  Vec2 position = Vec2::Zero();      ///< of the point that touches [length]
+  Vec2 position = Vec2::Zero();      ///< of the contact point [length]
   Vec2 force = Vec2::Zero();         ///< of the wall on the structure [force]
-  std::optional<double> pressure{};  ///< force over the length of axis it stands for; empty of a point force
+  std::optional<double> pressure{};  ///< force over tributary length [force/length]; empty for a point force
 };
 
 struct Shape {
@@ -28,11 +28,11 @@ struct Shape {
   std::vector<ContactMark> contacts{};
 };
 
-/// The structure in a state of the model. Forces are those with which its elements resist that shape; a run in
-/// increments carries others along.
+/// Returns the shape of the structure in a state of the model. Forces are the element forces of that shape; a run in
+/// load increments has others.
 Shape shape_of(const Model& model, const State& state);
 
-/// The surface of a wall where the structure may come.
+/// Stores the contact surface of a wall.
 struct WallShape {
   std::string name{};
   Side side = Side::above;
@@ -41,11 +41,10 @@ struct WallShape {
   bool moves = false;        ///< λ moves it
 };
 
-/// The heights of the members' sections, in the deck's order; 0 of bars, which are drawn as lines, and where it is
-/// unknown [length].
+/// Returns the section heights of the members, in the deck's order; 0 for bars and unknown heights [length].
 std::vector<double> section_heights(const deck::Deck& deck);
 
-/// The walls where they are at λ.
+/// Returns the walls at their positions at λ.
 std::vector<WallShape> wall_shapes(const Model& model, double lambda = 0.0);
 
 }  // namespace arcwall

@@ -8,13 +8,13 @@
 
 namespace arcwall {
 
-/// How far something that λ drives has gone: the sum of the λ at which the stages that drove it ended.
+/// Stores the accumulated factor of a quantity scaled by λ: the sum of λ at the ends of its stages.
 struct DrivenThing {
   std::string name{};  ///< as in `drives` of a stage: `load.0`, `prescribed.1`, `wall.hill`
   double gone = 0.0;
 };
 
-/// All that λ may drive in a deck, before its first stage.
+/// Returns all quantities of a deck that λ may scale, with factor 0.
 std::vector<DrivenThing> things_to_drive(const deck::Deck& deck);
 
 /// The deck that a stage traces: λ multiplies what it drives, from where that has gone, and all else is constant there.
@@ -26,7 +26,7 @@ std::shared_ptr<const deck::Deck> deck_of_stage(const std::shared_ptr<const deck
 /// another.
 bool is_driven_apart(const deck::Deck& deck, const std::string& member);
 
-/// The progress when a stage has ended at λ.
+/// Returns the accumulated factors after a stage that ended at λ.
 std::vector<DrivenThing> progress_after(const deck::Stage& stage, double lambda, std::vector<DrivenThing> progress);
 
 }  // namespace arcwall

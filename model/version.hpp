@@ -4,7 +4,7 @@
 
 namespace arcwall {
 
-/// The version of this library and of the programs that are built with it: `0.1.0`.
+/// Returns the version of the library and its programs: `0.1.0`.
 std::string program_version();
 
 }  // namespace arcwall

@@ -7,8 +7,8 @@
 
 namespace arcwall::deck {
 
-/// The deck as a TOML document in which every default stands; reading it gives an equal deck. With `only` no more than
-/// that key of the document, as `wall`.
+/// Returns the deck as a TOML document with all defaults; reading it gives an equal deck. `only`: write that key alone,
+/// for example `wall`; empty: all.
 std::string to_toml(const Deck& deck, std::string_view only = {});
 
 }  // namespace arcwall::deck
