@@ -11,14 +11,14 @@ namespace {
 constexpr double lopsided = 0.1;  // so that no other branch leaves on the way
 
 void clamp(StructureBuilder& builder, Index joint) {
-  builder.fix(builder.freedom(joint, Freedom::x));
-  builder.fix(builder.freedom(joint, Freedom::z));
+  builder.fix(builder.dof(joint, Dof::x));
+  builder.fix(builder.dof(joint, Dof::z));
   if (const auto rotation = builder.shared_rotation(joint)) builder.fix(*rotation);
 }
 
-// The way down of a freedom z.
+// The way down of a degree of freedom z.
 std::shared_ptr<const Observable> way_down(const Structure& structure, Index vertical) {
-  return std::make_shared<ScaledObservable>(std::make_shared<FreedomObservable>(structure, vertical), -1.0);
+  return std::make_shared<ScaledObservable>(std::make_shared<DofObservable>(structure, vertical), -1.0);
 }
 
 }  // namespace
@@ -43,9 +43,9 @@ Model lee_frame(int elements) {
                                          .section = section,
                                          .elements = in_beam});
   for (const Index pin : {foot, end})
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(pin, which));
+    for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(pin, which));
   const Index loaded = builder.mesh(beam).nodes[static_cast<std::size_t>(in_beam / 5)];
-  const Index vertical = builder.freedom(loaded, Freedom::z);
+  const Index vertical = builder.dof(loaded, Dof::z);
   builder.add_load(vertical, -1.0, LoadKind::proportional);
   Model model{.structure = builder.build(), .end = 90.0, .first_step = 0.1, .elements = elements};
   model.down = way_down(*model.structure, vertical);
@@ -70,10 +70,10 @@ Model star_of_arches(int arms, int elements) {
                         .elements = elements});
     clamp(builder, support);
   }
-  const Index vertical = builder.freedom(crown, Freedom::z);
+  const Index vertical = builder.dof(crown, Dof::z);
   const double load = EA * rise * rise * rise * pairs;
   builder.add_load(vertical, -load, LoadKind::proportional);
-  builder.add_load(builder.freedom(crown, Freedom::x), lopsided * load, LoadKind::proportional);
+  builder.add_load(builder.dof(crown, Dof::x), lopsided * load, LoadKind::proportional);
   Model model{.structure = builder.build(), .end = 1.5 * rise, .first_step = 0.05, .elements = 2 * pairs * elements};
   model.down = way_down(*model.structure, vertical);
   return model;
@@ -112,9 +112,9 @@ Model square_frame(int side) {
   const double load = EA * rise * rise * rise * bay;
   for (int row = 0; row < side; ++row)
     for (int column = 1; column + 1 < side; ++column)
-      builder.add_load(builder.freedom(joints[static_cast<std::size_t>(row * side + column)], Freedom::z),
+      builder.add_load(builder.dof(joints[static_cast<std::size_t>(row * side + column)], Dof::z),
                        -(1.0 + lopsided * column * bay) * load, LoadKind::proportional);
-  const Index vertical = builder.freedom(joints[static_cast<std::size_t>(side / 2 * side + side / 2)], Freedom::z);
+  const Index vertical = builder.dof(joints[static_cast<std::size_t>(side / 2 * side + side / 2)], Dof::z);
   Model model{.structure = builder.build(),
               .end = 1.5 * rise,
               .first_step = 0.05,

@@ -106,7 +106,8 @@ Measured traced(const Task& task, State start_at) {
       const double now = cpu_seconds();
       const Index used = system.times().linearizations - linearizations;
       const State& to = step->arc.to.state;
-      StepCosts::Costs& costs = to.piece.closed_count() > 0 ? measured.step_costs.closed : measured.step_costs.open;
+      StepCosts::Costs& costs =
+          to.active_set.closed_count() > 0 ? measured.step_costs.closed : measured.step_costs.open;
       if (step->arc.events.empty() && used > 0) {
         costs.whole.push_back((now - last) / double(used));
         costs.by_unknown.push_back(costs.whole.back() / double(to.x.size()));

@@ -45,7 +45,7 @@ class TimedSystem final : public System {
     return true;
   }
 
-  Index size(const Piece& piece) const override { return inner_.size(piece); }
+  Index size(const ActiveSet& active_set) const override { return inner_.size(active_set); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override {
     const ScopedTimer timer(times_.assembly);
     inner_.residual(state, F);
@@ -59,15 +59,17 @@ class TimedSystem final : public System {
     if (times_parts) last_F_ = out.F;
   }
   double energy(const State& state) const override { return inner_.energy(state); }
-  double squared_motion_by_lambda(const Piece& piece) const override { return inner_.squared_motion_by_lambda(piece); }
-  Vector weights(const Piece& piece) const override {
-    const ScopedTimer timer(times_.assembly);
-    return inner_.weights(piece);
+  double squared_motion_by_lambda(const ActiveSet& active_set) const override {
+    return inner_.squared_motion_by_lambda(active_set);
   }
-  Piece open_piece() const override { return inner_.open_piece(); }
-  Index multiplier_count(const Piece& piece) const override { return inner_.multiplier_count(piece); }
+  Vector weights(const ActiveSet& active_set) const override {
+    const ScopedTimer timer(times_.assembly);
+    return inner_.weights(active_set);
+  }
+  ActiveSet open_active_set() const override { return inner_.open_active_set(); }
+  Index multiplier_count(const ActiveSet& active_set) const override { return inner_.multiplier_count(active_set); }
 
-  Index guard_count(const Piece& piece) const override { return inner_.guard_count(piece); }
+  Index guard_count(const ActiveSet& active_set) const override { return inner_.guard_count(active_set); }
   Vector guards(const State& state) const override {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.guards(state);
@@ -85,14 +87,16 @@ class TimedSystem final : public System {
     return inner_.guard(state, j);
   }
   Vector unit_force(const State& state, Index j) const override { return inner_.unit_force(state, j); }
-  double compliance(const Piece& piece, Index j) const override { return inner_.compliance(piece, j); }
-  bool is_two_sided(const Piece& piece, Index j) const override { return inner_.is_two_sided(piece, j); }
-  std::optional<Index> multiplier_index(const Piece& piece, Index j) const override {
-    return inner_.multiplier_index(piece, j);
+  double compliance(const ActiveSet& active_set, Index j) const override { return inner_.compliance(active_set, j); }
+  bool is_two_sided(const ActiveSet& active_set, Index j) const override { return inner_.is_two_sided(active_set, j); }
+  std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const override {
+    return inner_.multiplier_index(active_set, j);
   }
-  bool leaves_stability_open(const Piece& piece) const override { return inner_.leaves_stability_open(piece); }
+  bool leaves_stability_open(const ActiveSet& active_set) const override {
+    return inner_.leaves_stability_open(active_set);
+  }
   double multiplier_scale() const override { return inner_.multiplier_scale(); }
-  Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override {
+  Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override {
     return inner_.transfer(x, from, to);
   }
   std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,
@@ -118,7 +122,7 @@ class TimedSystem final : public System {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.with_mesh_for_landing(from, forward, to, guard);
   }
-  Index separate_contacts(const Piece& piece) const override { return inner_.separate_contacts(piece); }
+  Index separate_contacts(const ActiveSet& active_set) const override { return inner_.separate_contacts(active_set); }
   bool passes_through(const State& from, const State& to) const override {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.passes_through(from, to);
@@ -128,9 +132,9 @@ class TimedSystem final : public System {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.comes_behind_an_end(from, to);
   }
-  Piece canonical_piece(const State& state) const override {
+  ActiveSet canonical_active_set(const State& state) const override {
     const ScopedTimer timer(times_.side_conditions);
-    return inner_.canonical_piece(state);
+    return inner_.canonical_active_set(state);
   }
   std::optional<std::string> invalid_place(const State& state) const override {
     const ScopedTimer timer(times_.side_conditions);

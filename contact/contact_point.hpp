@@ -37,17 +37,17 @@ class ContactQuery {
  public:
   virtual ~ContactQuery() = default;
 
-  /// Contact j of the state's piece, open or closed. The number of a validity bound stands for the place that it
+  /// Contact j of the state's active set, open or closed. The number of a validity bound stands for the place that it
   /// watches: where the pressure of a part on an obstacle is least, or an end.
   virtual ContactPoint contact(const State& state, Index j) const = 0;
 
   /// The force of contact j alone, 0 where it is open [force].
   virtual double force(const State& state, Index j) const = 0;
 
-  /// The closed contacts of the state's piece, in their order.
+  /// The closed contacts of the state's active set, in their order.
   virtual std::vector<ContactPoint> closed_contacts(const State& state) const = 0;
 
-  /// Nodes that are pressed on an obstacle between two closed contacts, where the layout of the piece has such.
+  /// Nodes that are pressed on an obstacle between two closed contacts, where the layout of the active set has such.
   virtual std::vector<ContactPoint> pressed_nodes(const State&) const { return {}; }
 };
 

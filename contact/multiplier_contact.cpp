@@ -38,30 +38,30 @@ MultiplierContact::MultiplierContact(const Equations& inner, std::vector<Candida
 }
 
 // Whether candidate j is closed and its force an unknown: of two that are opposite the first has that of both.
-bool MultiplierContact::has_force(const Piece& piece, std::size_t j) const {
+bool MultiplierContact::has_force(const ActiveSet& active_set, std::size_t j) const {
   const std::optional<Index> opposite = candidates_[j].opposite();
-  return piece[j] != 0 && !(opposite && *opposite < static_cast<Index>(j));
+  return active_set[j] != 0 && !(opposite && *opposite < static_cast<Index>(j));
 }
 
 // Calls `visit(j, k)` for each candidate j that has a force, the k-th of them.
 template <typename Visit>
-void MultiplierContact::for_each_force(const Piece& piece, const Visit& visit) const {
+void MultiplierContact::for_each_force(const ActiveSet& active_set, const Visit& visit) const {
   Index k = 0;
-  for (std::size_t j = 0; j < piece.contacts(); ++j)
-    if (has_force(piece, j)) visit(j, k++);
+  for (std::size_t j = 0; j < active_set.contacts(); ++j)
+    if (has_force(active_set, j)) visit(j, k++);
 }
 
-Index MultiplierContact::multiplier_count(const Piece& piece) const {
+Index MultiplierContact::multiplier_count(const ActiveSet& active_set) const {
   Index count = 0;
-  for_each_force(piece, [&](std::size_t, Index) { ++count; });
+  for_each_force(active_set, [&](std::size_t, Index) { ++count; });
   return count;
 }
 
-Piece MultiplierContact::open_piece() const {
-  Piece piece(candidates_.size(), 0);
+ActiveSet MultiplierContact::open_active_set() const {
+  ActiveSet active_set(candidates_.size(), 0);
   for (std::size_t j = 0; j < candidates_.size(); ++j)
-    if (candidates_[j].opposite()) piece[j] = 1;
-  return piece;
+    if (candidates_[j].opposite()) active_set[j] = 1;
+  return active_set;
 }
 
 void MultiplierContact::residual(const State& state, Eigen::Ref<Vector> F) const {
@@ -69,7 +69,7 @@ void MultiplierContact::residual(const State& state, Eigen::Ref<Vector> F) const
   const Index n = inner.x.size();
   inner_.residual(inner, F.head(n));
   Gap gap;
-  for_each_force(state.piece, [&](std::size_t j, Index k) {
+  for_each_force(state.active_set, [&](std::size_t j, Index k) {
     const auto& unknowns = candidates_[j].point().unknowns();
     const double p = state.x[n + k];
     candidates_[j].gap(state, gap);
@@ -84,7 +84,7 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
   Linearization& inner = *out.inner;
   const State inner_at = inner_state(state);
   inner_.linearize(inner_at, inner);
-  if (!out.pattern_of || *out.pattern_of != state.piece) lay_out(state, out);
+  if (!out.pattern_of || *out.pattern_of != state.active_set) lay_out(state, out);
 
   const Index n = inner_at.x.size(), m = out.K.cols() - n;
   out.F.resize(n + m);
@@ -94,7 +94,7 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
   copy_values(inner.K, out.K);
   out.ground = inner.ground;
   Gap gap;
-  for_each_force(state.piece, [&](std::size_t j, Index k) {
+  for_each_force(state.active_set, [&](std::size_t j, Index k) {
     const auto& unknowns = candidates_[j].point().unknowns();
     const double p = state.x[n + k];
     const auto [c, r] = springs_[j];
@@ -121,19 +121,19 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
 
 void MultiplierContact::lay_out(const State& state, Linearization& out) const {
   std::vector<RowEntry> entries;
-  for_each_force(state.piece, [&](std::size_t j, Index k) {
+  for_each_force(state.active_set, [&](std::size_t j, Index k) {
     for (const Index unknown : candidates_[j].point().unknowns()) entries.push_back({.row = k, .column = unknown});
   });
-  out.K = with_rows_behind(out.inner->K, entries, multiplier_count(state.piece));
+  out.K = with_rows_behind(out.inner->K, entries, multiplier_count(state.active_set));
   out.translation_free = out.inner->translation_free;
   if (!out.translation_free.empty()) out.translation_free.resize(static_cast<std::size_t>(out.K.cols()), false);
-  out.pattern_of = state.piece;
+  out.pattern_of = state.active_set;
 }
 
 double MultiplierContact::energy(const State& state) const {
   const State inner = inner_state(state);
   double springs = 0.0;
-  for_each_force(state.piece, [&](std::size_t j, Index k) {
+  for_each_force(state.active_set, [&](std::size_t j, Index k) {
     const double p = state.x[inner.x.size() + k];
     springs += 0.5 * springs_[j].c * p * p;
   });
@@ -141,15 +141,15 @@ double MultiplierContact::energy(const State& state) const {
 }
 
 // An obstacle counts as a structure that goes with it would.
-double MultiplierContact::squared_motion_by_lambda(const Piece&) const {
+double MultiplierContact::squared_motion_by_lambda(const ActiveSet&) const {
   double speed = 0.0;
   for (const Candidate& candidate : candidates_)
     speed = std::max(speed, candidate.obstacle().greatest_speed(scales_.length) / scales_.length);
   return inner_.squared_motion_by_lambda({}) + speed * speed;
 }
 
-Vector MultiplierContact::weights(const Piece& piece) const {
-  Vector weights = Vector::Zero(size(piece));
+Vector MultiplierContact::weights(const ActiveSet& active_set) const {
+  Vector weights = Vector::Zero(size(active_set));
   weights.head(inner_.size({})) = inner_.weights({});
   return weights;
 }
@@ -158,8 +158,8 @@ Vector MultiplierContact::guards(const State& state) const {
   Vector guards = Vector::Constant(contact_count(), out_of_reach);
   const Index n = inner_.size({});
   for (Index j = 0; j < guards.size(); ++j)
-    if (!state.piece[static_cast<std::size_t>(j)] && !has_opposite(j)) guards[j] = open_guard(j, state);
-  for_each_force(state.piece, [&](std::size_t j, Index k) {
+    if (!state.active_set[static_cast<std::size_t>(j)] && !has_opposite(j)) guards[j] = open_guard(j, state);
+  for_each_force(state.active_set, [&](std::size_t j, Index k) {
     if (const auto contact = static_cast<Index>(j); !has_opposite(contact))
       guards[contact] = state.x[n + k] / scales_.force;
   });
@@ -168,7 +168,7 @@ Vector MultiplierContact::guards(const State& state) const {
 
 double MultiplierContact::guard(const State& state, Index j) const {
   if (has_opposite(j)) return out_of_reach;
-  const auto k = multiplier_index(state.piece, j);
+  const auto k = multiplier_index(state.active_set, j);
   return k ? state.x[*k] / scales_.force : open_guard(j, state);
 }
 
@@ -180,7 +180,7 @@ double MultiplierContact::open_guard(Index j, const State& state) const {
 Row MultiplierContact::guard_gradient(const State& state, Index j) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   if (has_opposite(j)) return row;
-  if (const auto k = multiplier_index(state.piece, j)) {
+  if (const auto k = multiplier_index(state.active_set, j)) {
     row.dx[*k] = 1.0 / scales_.force;
   } else if (candidate(j).faces_wall(state)) {
     Gap gap;
@@ -198,9 +198,9 @@ GuardsAlong MultiplierContact::guards_along(const State& state, const Direction&
   Vector& rates = along.rates;
   const Index n = inner_.size({});
   for (Index j = 0; j < rates.size(); ++j)
-    if (!state.piece[static_cast<std::size_t>(j)] && !has_opposite(j))
+    if (!state.active_set[static_cast<std::size_t>(j)] && !has_opposite(j))
       rates[j] = candidate(j).gap_rate(state, direction) / scales_.length;
-  for_each_force(state.piece, [&](std::size_t j, Index k) {
+  for_each_force(state.active_set, [&](std::size_t j, Index k) {
     if (const auto contact = static_cast<Index>(j); !has_opposite(contact))
       rates[contact] = direction.dx[n + k] / scales_.force;
   });
@@ -208,18 +208,18 @@ GuardsAlong MultiplierContact::guards_along(const State& state, const Direction&
 }
 
 Vector MultiplierContact::unit_force(const State& state, Index j) const {
-  assert(!state.piece[static_cast<std::size_t>(j)]);
+  assert(!state.active_set[static_cast<std::size_t>(j)]);
   return guard_gradient(state, j).dx * scales_.length * scales_.force;
 }
 
-std::optional<Index> MultiplierContact::multiplier_index(const Piece& piece, Index j) const {
-  if (!has_force(piece, static_cast<std::size_t>(j))) return std::nullopt;
+std::optional<Index> MultiplierContact::multiplier_index(const ActiveSet& active_set, Index j) const {
+  if (!has_force(active_set, static_cast<std::size_t>(j))) return std::nullopt;
   Index k = inner_.size({});
-  for (std::size_t i = 0; i < static_cast<std::size_t>(j); ++i) k += has_force(piece, i) ? 1 : 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(j); ++i) k += has_force(active_set, i) ? 1 : 0;
   return k;
 }
 
-Vector MultiplierContact::transfer(const Vector& x, const Piece& from, const Piece& to) const {
+Vector MultiplierContact::transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const {
   const Index n = inner_.size({});
   Vector moved = Vector::Zero(size(to));
   moved.head(n) = x.head(n);
@@ -235,7 +235,7 @@ Vector MultiplierContact::transfer(const Vector& x, const Piece& from, const Pie
 
 std::optional<std::string> MultiplierContact::invalid_place(const State& state) const {
   for (std::size_t j = 0; j < candidates_.size(); ++j)
-    if (state.piece[j] && !candidates_[j].faces_wall(state)) return words_of(candidates_[j].label());
+    if (state.active_set[j] && !candidates_[j].faces_wall(state)) return words_of(candidates_[j].label());
   return std::nullopt;
 }
 
@@ -243,7 +243,7 @@ bool MultiplierContact::passes_through(const State& from, const State& to) const
   const double touching = 1e-6 * scales_.length;
   for (std::size_t j = 0; j < candidates_.size(); ++j) {
     const Obstacle& obstacle = candidates_[j].obstacle();
-    if (!obstacle.has_other_sides() || from.piece[j]) continue;
+    if (!obstacle.has_other_sides() || from.active_set[j]) continue;
     const TrackedPoint& point = candidates_[j].point();
     const PlaceInStep step{.from = point.position(from), .to = point.position(to)};
     if (point_passes_through(obstacle, step, from.lambda, to.lambda, touching)) return true;
@@ -256,7 +256,8 @@ bool MultiplierContact::may_have_kink(const State& from, const State& to) const 
     return candidate.obstacle().curvature(candidate.point().position(at), at.lambda).value;
   };
   for (std::size_t j = 0; j < candidates_.size(); ++j)
-    if (from.piece[j] && curvature_jumps(curvature(candidates_[j], from), curvature(candidates_[j], to))) return true;
+    if (from.active_set[j] && curvature_jumps(curvature(candidates_[j], from), curvature(candidates_[j], to)))
+      return true;
   return false;
 }
 
@@ -268,9 +269,9 @@ bool MultiplierContact::comes_behind_an_end(const State& from, const State& to) 
 }
 
 double MultiplierContact::force(const State& state, Index j) const {
-  if (const auto k = multiplier_index(state.piece, j))
+  if (const auto k = multiplier_index(state.active_set, j))
     return has_opposite(j) ? std::max(state.x[*k], 0.0) : state.x[*k];
-  const auto k = has_opposite(j) ? multiplier_index(state.piece, *candidate(j).opposite()) : std::nullopt;
+  const auto k = has_opposite(j) ? multiplier_index(state.active_set, *candidate(j).opposite()) : std::nullopt;
   return k ? std::max(-state.x[*k], 0.0) : 0.0;
 }
 
@@ -292,14 +293,14 @@ std::vector<ContactPoint> MultiplierContact::closed_contacts(const State& state)
   std::vector<ContactPoint> contacts;
   Vector forces = Vector::Zero(contact_count());
   const Index n = inner_.size({});
-  for_each_force(state.piece, [&](std::size_t j, Index k) {
+  for_each_force(state.active_set, [&](std::size_t j, Index k) {
     const double p = state.x[n + k];
     const std::optional<Index> opposite = candidates_[j].opposite();
     forces[static_cast<Index>(j)] = opposite ? std::max(p, 0.0) : p;
     if (opposite) forces[*opposite] = std::max(-p, 0.0);
   });
   for (std::size_t j = 0; j < candidates_.size(); ++j)
-    if (state.piece[j]) contacts.push_back(told(state, j, forces[static_cast<Index>(j)]));
+    if (state.active_set[j]) contacts.push_back(told(state, j, forces[static_cast<Index>(j)]));
   return contacts;
 }
 

@@ -30,7 +30,8 @@ struct ContactLaw {
 /// with t = p − r g; c = 0 but for the method `penalty`, r = 0 but for `augmented`.
 ///
 /// Two candidates that are opposite to each other (Candidate::opposite) are one contact that holds in both senses: both
-/// are closed on every piece of a path, and the first of them has the force of both, of either sign, without a guard.
+/// are closed on every active set of a path, and the first of them has the force of both, of either sign, without a
+/// guard.
 class MultiplierContact final : public System, public ContactQuery {
  public:
   /// `inner` must outlive this. Methods other than `rigid` need candidates with tributary
@@ -38,16 +39,16 @@ class MultiplierContact final : public System, public ContactQuery {
   MultiplierContact(const Equations& inner, std::vector<Candidate> candidates, const ContactScales& scales,
                     const ContactLaw& law = {});
 
-  Index size(const Piece& piece) const override { return inner_.size({}) + multiplier_count(piece); }
+  Index size(const ActiveSet& active_set) const override { return inner_.size({}) + multiplier_count(active_set); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
-  Vector weights(const Piece& piece) const override;
-  std::vector<Index> turning_sets(const Piece&) const override { return inner_.turning_sets({}); }
-  double squared_motion_by_lambda(const Piece&) const override;
-  Index multiplier_count(const Piece& piece) const override;
+  Vector weights(const ActiveSet& active_set) const override;
+  std::vector<Index> turning_sets(const ActiveSet&) const override { return inner_.turning_sets({}); }
+  double squared_motion_by_lambda(const ActiveSet&) const override;
+  Index multiplier_count(const ActiveSet& active_set) const override;
 
-  Piece open_piece() const override;
+  ActiveSet open_active_set() const override;
   Index contact_count() const { return static_cast<Index>(candidates_.size()); }
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
@@ -55,12 +56,14 @@ class MultiplierContact final : public System, public ContactQuery {
   std::string watched_place(const State& state, Index j) const override { return words_of(contact(state, j).label); }
   double guard(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
-  Index guard_count(const Piece&) const override { return contact_count(); }
-  double compliance(const Piece&, Index j) const override { return springs_at(j).c * scales_.force / scales_.length; }
-  bool is_two_sided(const Piece&, Index j) const override { return has_opposite(j); }
-  std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
+  Index guard_count(const ActiveSet&) const override { return contact_count(); }
+  double compliance(const ActiveSet&, Index j) const override {
+    return springs_at(j).c * scales_.force / scales_.length;
+  }
+  bool is_two_sided(const ActiveSet&, Index j) const override { return has_opposite(j); }
+  std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }
-  Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
+  Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override;
   std::optional<std::string> invalid_place(const State& state) const override;
   bool passes_through(const State& from, const State& to) const override;
   bool may_have_kink(const State& from, const State& to) const override;
@@ -75,7 +78,7 @@ class MultiplierContact final : public System, public ContactQuery {
 
  private:
   State inner_state(const State& state) const {
-    return {.x = state.x.head(inner_.size({})), .lambda = state.lambda, .piece = {}};
+    return {.x = state.x.head(inner_.size({})), .lambda = state.lambda, .active_set = {}};
   }
   // Of one contact: c [length/force] and r [force/length] of the equations above.
   struct Springs {
@@ -83,9 +86,9 @@ class MultiplierContact final : public System, public ContactQuery {
   };
   const Springs& springs_at(Index j) const { return springs_[static_cast<std::size_t>(j)]; }
   bool has_opposite(Index j) const { return candidate(j).opposite().has_value(); }
-  bool has_force(const Piece& piece, std::size_t j) const;
+  bool has_force(const ActiveSet& active_set, std::size_t j) const;
   template <typename Visit>
-  void for_each_force(const Piece& piece, const Visit& visit) const;
+  void for_each_force(const ActiveSet& active_set, const Visit& visit) const;
   double open_guard(Index j, const State& state) const;
   ContactPoint told(const State& state, std::size_t j, double force) const;
   void lay_out(const State& state, Linearization& out) const;

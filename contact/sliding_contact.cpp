@@ -95,14 +95,14 @@ SlidingContact::SlidingContact(const SlidingBody& body, std::vector<SlidingObsta
   const auto layout = plain_layout(body);
   const Vector x = body.rest(layout->mesh(), Vector()), s;
   std::vector<FreeEnd> ends = free_ends(body, obstacles, layout->mesh(), {.x = x, .s = s, .lambda = 0.0});
-  const State rest{.x = x, .lambda = 0.0, .piece = Piece(ends.size(), 0, layout)};
+  const State rest{.x = x, .lambda = 0.0, .active_set = ActiveSet(ends.size(), 0, layout)};
   auto setting = std::make_unique<SlidingSetting>(SlidingSetting{.body = body,
                                                                  .obstacles = std::move(obstacles),
                                                                  .scales = scales,
                                                                  .free_ends = std::move(ends),
                                                                  .continuum = continuum});
   setting->pinches = sliding::pinches_at_rest(*setting, SlidingState(rest));
-  open_ = sliding::pinched_piece(*setting, SlidingState(rest));
+  open_ = sliding::pinched_active_set(*setting, SlidingState(rest));
   setting_ = std::move(setting);
 }
 
@@ -121,30 +121,32 @@ const std::vector<SlidingObstacle>& SlidingContact::obstacles() const { return s
 
 // --- the equations --------------------------------------------------------------------------------------------------
 
-Index SlidingContact::size(const Piece& piece) const { return SlidingUnknowns(piece).size(); }
+Index SlidingContact::size(const ActiveSet& active_set) const { return SlidingUnknowns(active_set).size(); }
 
-Index SlidingContact::multiplier_count(const Piece& piece) const { return SlidingUnknowns(piece).multipliers(); }
+Index SlidingContact::multiplier_count(const ActiveSet& active_set) const {
+  return SlidingUnknowns(active_set).multipliers();
+}
 
-std::optional<Index> SlidingContact::multiplier_index(const Piece& piece, Index j) const {
-  return SlidingUnknowns(piece).force(static_cast<std::size_t>(j));
+std::optional<Index> SlidingContact::multiplier_index(const ActiveSet& active_set, Index j) const {
+  return SlidingUnknowns(active_set).force(static_cast<std::size_t>(j));
 }
 
 // An obstacle counts as a structure that goes with it would.
-double SlidingContact::squared_motion_by_lambda(const Piece& piece) const {
+double SlidingContact::squared_motion_by_lambda(const ActiveSet& active_set) const {
   double speed = 0.0;
   for (const SlidingObstacle& obstacle : setting_->obstacles)
     speed = std::max(speed, obstacle.surface->greatest_speed(setting_->scales.length) / setting_->scales.length);
-  return sliding_layout(piece).mesh().squared_motion_by_lambda() + speed * speed;
+  return sliding_layout(active_set).mesh().squared_motion_by_lambda() + speed * speed;
 }
 
-std::vector<Index> SlidingContact::turning_sets(const Piece& piece) const {
-  return sliding_layout(piece).mesh().turning_sets();
+std::vector<Index> SlidingContact::turning_sets(const ActiveSet& active_set) const {
+  return sliding_layout(active_set).mesh().turning_sets();
 }
 
-Vector SlidingContact::weights(const Piece& piece) const {
-  const SlidingUnknowns index(piece);
+Vector SlidingContact::weights(const ActiveSet& active_set) const {
+  const SlidingUnknowns index(active_set);
   Vector weights = Vector::Zero(index.size());
-  weights.head(index.nodes) = sliding_layout(piece).mesh().weights();
+  weights.head(index.nodes) = sliding_layout(active_set).mesh().weights();
   return weights;
 }
 
@@ -160,8 +162,8 @@ double SlidingContact::energy(const State& state) const { return mesh_of(state).
 
 // --- side conditions ------------------------------------------------------------------------------------------------
 
-Index SlidingContact::guard_count(const Piece& piece) const {
-  return static_cast<Index>(piece.contacts() + sliding_layout(piece).bounds().size());
+Index SlidingContact::guard_count(const ActiveSet& active_set) const {
+  return static_cast<Index>(active_set.contacts() + sliding_layout(active_set).bounds().size());
 }
 
 Vector SlidingContact::guards(const State& state) const { return guards_of(*setting_, SlidingState(state)); }
@@ -176,7 +178,7 @@ Row SlidingContact::guard_gradient(const State& state, Index j) const {
 GuardsAlong SlidingContact::guards_along(const State& state, const Direction& direction) const {
   const SlidingState at(state);  // what bounds share is found once for both
   const SlidingMotion motion{.at = at, .direction = direction};
-  GuardsAlong along{.values = guards_of(*setting_, at), .rates = Vector(guard_count(state.piece))};
+  GuardsAlong along{.values = guards_of(*setting_, at), .rates = Vector(guard_count(state.active_set))};
   Vector& rates = along.rates;
   for (Index j = 0; j < rates.size(); ++j)
     rates[j] = is_bound(at, j) ? bound_of(at, j).rate(*setting_, motion)
@@ -188,11 +190,11 @@ Vector SlidingContact::unit_force(const State& state, Index j) const {
   return guard_gradient(state, j).dx * scales().length * scales().force;
 }
 
-bool SlidingContact::is_two_sided(const Piece& piece, Index j) const {
-  return sliding_layout(piece).is_pinched(static_cast<std::size_t>(j));
+bool SlidingContact::is_two_sided(const ActiveSet& active_set, Index j) const {
+  return sliding_layout(active_set).is_pinched(static_cast<std::size_t>(j));
 }
 
-Vector SlidingContact::transfer(const Vector& x, const Piece& from, const Piece& to) const {
+Vector SlidingContact::transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const {
   const SlidingUnknowns source(from), target(to);
   const Index rest = source.size() - source.nodes - source.closed;  // of pressed nodes, moments and coordinates
   Vector moved = Vector::Zero(target.size());
@@ -203,8 +205,8 @@ Vector SlidingContact::transfer(const Vector& x, const Piece& from, const Piece&
   return moved;
 }
 
-bool SlidingContact::leaves_stability_open(const Piece& piece) const {
-  return !sliding_layout(piece).neutral_spans().empty();
+bool SlidingContact::leaves_stability_open(const ActiveSet& active_set) const {
+  return !sliding_layout(active_set).neutral_spans().empty();
 }
 
 std::optional<std::string> SlidingContact::invalid_place(const State& state) const {
@@ -253,8 +255,8 @@ bool SlidingContact::passes_through(const State& from, const State& to) const {
 
 // Each closed point, but those at the end of a zone that an earlier one begins; each zone from end to end of a strand;
 // and each closed end, which is one with the zones that reach it.
-Index SlidingContact::separate_contacts(const Piece& piece) const {
-  const SlidingContactLayout& layout = sliding_layout(piece);
+Index SlidingContact::separate_contacts(const ActiveSet& active_set) const {
+  const SlidingContactLayout& layout = sliding_layout(active_set);
   const std::size_t points = layout.points().size();
   const auto strand_of = [&](std::size_t k) { return layout.mesh().breakpoint(static_cast<Index>(k)).first; };
   const auto is_in_zone = [&](const StrandEnd& end, std::size_t obstacle) {
@@ -267,12 +269,12 @@ Index SlidingContact::separate_contacts(const Piece& piece) const {
   for (std::size_t k = 0; k < points; ++k) {
     const bool ends_zone =
         k > 0 && strand_of(k) == strand_of(k - 1) && layout.points()[k - 1].behind != SlidingContactLayout::Span::free;
-    if (piece[k] != 0 && !ends_zone) ++count;
+    if (active_set[k] != 0 && !ends_zone) ++count;
   }
   for (Index strand = 0; strand < body().strands(); ++strand)
     if (layout.lies_on(strand)) ++count;
   for (std::size_t e = 0; e < setting_->free_ends.size(); ++e) {
-    if (piece[points + e] == 0) continue;
+    if (active_set[points + e] == 0) continue;
     const FreeEnd& end = setting_->free_ends[e];
     if (!is_in_zone({.strand = end.strand, .last = end.last}, end.obstacle)) ++count;
     count -= std::count_if(end.joined.begin(), end.joined.end(),
@@ -299,14 +301,14 @@ bool SlidingContact::comes_behind_an_end(const State& from, const State& to) con
   return sliding::comes_behind_an_end(*setting_, SlidingState(from), SlidingState(to));
 }
 
-Piece SlidingContact::canonical_piece(const State& state) const {
-  return sliding::canonical_piece(*setting_, SlidingState(state));
+ActiveSet SlidingContact::canonical_active_set(const State& state) const {
+  return sliding::canonical_active_set(*setting_, SlidingState(state));
 }
 
 State SlidingContact::rest() const {
   const SlidingContactLayout& on = sliding_layout(open_);
   const SlidingUnknowns index(open_);
-  State rest{.x = Vector::Zero(index.size()), .lambda = 0.0, .piece = open_};
+  State rest{.x = Vector::Zero(index.size()), .lambda = 0.0, .active_set = open_};
   rest.x.head(index.nodes) = body().rest(on.mesh(), on.origin());
   rest.x.tail(index.points) = on.origin();
   return rest;
@@ -329,7 +331,7 @@ State SlidingContact::adopted(const State& state) const {
   const SlidingState at(state);
   const auto here = std::make_shared<SlidingContactLayout>(body(), body().mesh(at.mesh.elements_per_segment()),
                                                            at.layout.points(), at.now.s, at.layout.lying());
-  return {.x = state.x, .lambda = state.lambda, .piece = sliding::with_layout(state.piece, here)};
+  return {.x = state.x, .lambda = state.lambda, .active_set = sliding::with_layout(state.active_set, here)};
 }
 
 State SlidingContact::with_flat_parts_loaded(const State& state, double toward) const {
@@ -344,7 +346,7 @@ std::optional<State> SlidingContact::taken_over(const State& state) const {
   if (!here || here->mesh().unknowns() != at.mesh.unknowns() || here->mesh().breakpoints() != at.mesh.breakpoints() ||
       here->bounds().size() != at.layout.bounds().size())
     return std::nullopt;
-  return State{.x = state.x, .lambda = state.lambda, .piece = sliding::with_layout(state.piece, here)};
+  return State{.x = state.x, .lambda = state.lambda, .active_set = sliding::with_layout(state.active_set, here)};
 }
 
 State SlidingContact::with_given_contacts(const State& open, const std::vector<GivenContact>& contacts) const {

@@ -27,8 +27,8 @@ struct SlidingSetting;
 /// closed, or open and follow a least gap. Unknowns: x, p, m, s.
 ///
 /// Between two closed points on one wall the body may lie on the wall: straight and without pressure, or with nodes
-/// that are pressed on the wall, where wall or body are curved. The guards of a piece are those of its contacts (the
-/// tracked points, then free ends) and, behind them, the bounds of its layout.
+/// that are pressed on the wall, where wall or body are curved. The guards of an active set are those of its contacts
+/// (the tracked points, then free ends) and, behind them, the bounds of its layout.
 class SlidingContact final : public System, public ContactQuery {
  public:
   /// `body` must outlive this.
@@ -36,28 +36,28 @@ class SlidingContact final : public System, public ContactQuery {
                  ContinuumChoice continuum = ContinuumChoice::symmetric);
   ~SlidingContact() override;
 
-  Index size(const Piece& piece) const override;
+  Index size(const ActiveSet& active_set) const override;
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
-  Vector weights(const Piece& piece) const override;
-  std::vector<Index> turning_sets(const Piece& piece) const override;
-  double squared_motion_by_lambda(const Piece& piece) const override;
-  Index multiplier_count(const Piece& piece) const override;
+  Vector weights(const ActiveSet& active_set) const override;
+  std::vector<Index> turning_sets(const ActiveSet& active_set) const override;
+  double squared_motion_by_lambda(const ActiveSet& active_set) const override;
+  Index multiplier_count(const ActiveSet& active_set) const override;
 
-  Piece open_piece() const override { return open_; }
-  Index guard_count(const Piece& piece) const override;
+  ActiveSet open_active_set() const override { return open_; }
+  Index guard_count(const ActiveSet& active_set) const override;
   Vector guards(const State& state) const override;
   double guard(const State& state, Index j) const override;
   Row guard_gradient(const State& state, Index j) const override;
   GuardsAlong guards_along(const State& state, const Direction& direction) const override;
   std::string watched_place(const State& state, Index j) const override { return words_of(contact(state, j).label); }
   Vector unit_force(const State& state, Index j) const override;
-  std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
-  bool is_two_sided(const Piece& piece, Index j) const override;
+  std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const override;
+  bool is_two_sided(const ActiveSet& active_set, Index j) const override;
   double multiplier_scale() const override { return scales().force; }
-  Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
-  bool leaves_stability_open(const Piece& piece) const override;
+  Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override;
+  bool leaves_stability_open(const ActiveSet& active_set) const override;
   std::optional<std::string> invalid_place(const State& state) const override;
 
   std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,
@@ -71,8 +71,8 @@ class SlidingContact final : public System, public ContactQuery {
   bool passes_through(const State& from, const State& to) const override;
   bool may_have_kink(const State& from, const State& to) const override;
   bool comes_behind_an_end(const State& from, const State& to) const override;
-  Index separate_contacts(const Piece& piece) const override;
-  Piece canonical_piece(const State& state) const override;
+  Index separate_contacts(const ActiveSet& active_set) const override;
+  ActiveSet canonical_active_set(const State& state) const override;
 
   ContactPoint contact(const State& state, Index j) const override;
   double force(const State& state, Index j) const override;
@@ -149,7 +149,7 @@ class SlidingContact final : public System, public ContactQuery {
 
  private:
   std::unique_ptr<const SlidingSetting> setting_;
-  Piece open_;
+  ActiveSet open_;
 };
 
 }  // namespace arcwall

@@ -18,8 +18,9 @@ namespace arcwall {
 
 namespace {
 
-// To the first point of a piece that was entered, or to where a guard vanishes before it: the pressure of a pressed
-// part that falls from its beginning, say. What is violated by no more than where pieces are entered may stay so.
+// To the first point of an active set that was entered, or to where a guard vanishes before it: the pressure of a
+// pressed part that falls from its beginning, say. What is violated by no more than where active sets are entered may
+// stay so.
 StepTried step_to_known_end(TraceTools& tools, const StepOrigin& origin) {
   StepEnd end{.point = *origin.from.known_end};
   const Vector& guards = end.point.guards;
@@ -32,13 +33,13 @@ StepTried step_to_known_end(TraceTools& tools, const StepOrigin& origin) {
   }
   bool holds = true;
   for (Index j = 0; j < guards.size(); ++j)
-    holds = holds && guards[j] >= -tools.options.mesh_error_of(end.point.state.piece, j);
+    holds = holds && guards[j] >= -tools.options.mesh_error_of(end.point.state.active_set, j);
   if (holds) return {.result = std::move(end)};
   return {.result = Rejected{.outcome = StepOutcome::event_not_located, .failure = landed.failure}};
 }
 
 // A step of length s, or to where it ends if that is known already: the bound that has been passed, the first of the
-// singular points that were located with the last one, the first point of a piece that was entered.
+// singular points that were located with the last one, the first point of an active set that was entered.
 StepTried next_step(TraceTools& tools, const StepOrigin& origin, double s) {
   const Departure& from = origin.from;
   if (from.passed_bound) return {.result = StepEnd{.point = from.point, .landing = from.passed_bound}};
@@ -56,8 +57,8 @@ ArcEndSearch events_of(TraceTools& tools, const StepOrigin& origin, StepEnd step
 }
 
 // Whether an end that was interpolated violates a contact by more than it is off: the step's end is on another branch.
-bool strays_from_piece(const ArcEnd& end) {
-  const auto contacts = static_cast<Index>(end.point.state.piece.size());
+bool strays_from_active_set(const ArcEnd& end) {
+  const auto contacts = static_cast<Index>(end.point.state.active_set.size());
   return !end.singular.empty() && contacts > 0 && end.point.guards.head(contacts).minCoeff() < -singular_point_accuracy;
 }
 
@@ -124,7 +125,7 @@ CornerPassed pass_corner(TraceTools& tools, const TracerState& state, const ArcE
                 .before = state.from.count_after,
                 .lambda_scale = state.lambda_scale,
                 .without_progress = stands ? state.corners_without_progress + 1 : 0};
-  const bool at_bound = end.landing->guard >= static_cast<Index>(end.point.state.piece.size());
+  const bool at_bound = end.landing->guard >= static_cast<Index>(end.point.state.active_set.size());
   return at_bound ? pass_bound(tools, std::move(corner), end.landing->guard)
                   : turn_corner(tools, std::move(corner), end.landing->guard, state.visited);
 }
@@ -150,8 +151,8 @@ void begin_next(const StepOrigin& origin, const PathPoint& next, bool smooth, De
   leave.before->nearest = {};
 }
 
-// The target values between a change of contact and where the piece that was entered begins, the first of which is
-// given, on the piece that ends.
+// The target values between a change of contact and where the active set that was entered begins, the first of which is
+// given, on the active set that ends.
 std::vector<ValuePoint> values_before(TraceTools& tools, const Metric& metric, const PathPoint& change,
                                       const PathPoint& begin, std::optional<ValueBetween> value) {
   std::vector<ValuePoint> values;
@@ -169,13 +170,13 @@ std::vector<ValuePoint> values_before(TraceTools& tools, const Metric& metric, c
   return values;
 }
 
-// Lands on a target value that lies between an arc's end and the piece ahead: behind the change where that is an event
-// here, else before it, on the piece that ends; on the one ahead; or where the arc ends. No value is jumped over. Where
-// the arc does not reach the piece ahead `passed` becomes empty.
-void land_before_piece_ahead(TraceTools& tools, const StepOrigin& origin, const ValueBetween& value, ArcEnd& end,
-                             std::optional<CornerPassed>& passed) {
+// Lands on a target value that lies between an arc's end and the active set ahead: behind the change where that is an
+// event here, else before it, on the active set that ends; on the one ahead; or where the arc ends. No value is jumped
+// over. Where the arc does not reach the active set ahead `passed` becomes empty.
+void land_before_active_set_ahead(TraceTools& tools, const StepOrigin& origin, const ValueBetween& value, ArcEnd& end,
+                                  std::optional<CornerPassed>& passed) {
   if (passed->entered) {
-    EnteredPiece& entered = *passed->entered;
+    EnteredActiveSet& entered = *passed->entered;
     entered.values = values_before(tools, origin.metric, end.point, entered.begin, value);
     if (!entered.values.empty()) return;
   } else if (auto beyond = land_beyond_bound(tools, origin, end, value)) {
@@ -185,28 +186,28 @@ void land_before_piece_ahead(TraceTools& tools, const StepOrigin& origin, const 
     return;
   }
   end.event = EventPlace{.what = EventPlace::What::target_value, .which = value.which, .t = 1.0};
-  if (passed->entered || !land_piece_ahead(tools, origin.metric.lambda_scale(), value, passed->at)) return;
+  if (passed->entered || !land_active_set_ahead(tools, origin.metric.lambda_scale(), value, passed->at)) return;
   for (Event& event : passed->events)
     event.lambda_uncertainty =
         std::max(event.lambda_uncertainty, std::abs(passed->at.state.lambda - event.state.lambda));
 }
 
 // A change of contacts at an arc's end is left; empty where there is none.
-std::optional<CornerPassed> leave_piece(TraceTools& tools, const TracerState& state, const StepOrigin& origin,
-                                        ArcEnd& end) {
+std::optional<CornerPassed> leave_active_set(TraceTools& tools, const TracerState& state, const StepOrigin& origin,
+                                             ArcEnd& end) {
   std::optional<CornerPassed> passed;
   end.point.count = count_at(tools, origin, end);
   if (!end.landing) return passed;
   passed = pass_corner(tools, state, end, signs_behind(tools, origin, end));
   if (passed->end) return passed;
   if (const auto value = first_value_between(tools.options.target_values, end.point, passed->ahead().state))
-    land_before_piece_ahead(tools, origin, *value, end, passed);
+    land_before_active_set_ahead(tools, origin, *value, end, passed);
   return passed;
 }
 
 Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& origin, ArcEnd end, double s) {
   Accepted accepted{.corners_without_progress = state.corners_without_progress};
-  std::optional<CornerPassed> passed = leave_piece(tools, state, origin, end);
+  std::optional<CornerPassed> passed = leave_active_set(tools, state, origin, end);
   accepted.end = end_at_crossed_pitchfork(tools, origin, end);
   const StabilityCount behind = count_behind(tools, origin, end);
   accepted.arc.events = events_at(tools, origin, end, behind);
@@ -232,7 +233,7 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
     // Behind a change of contact that was not left nothing is counted.
     if (accepted.end && passed->events.empty() && !passed->entered) end.point.count = origin.from.count_after;
   }
-  if (!accepted.end && new_contacts) accepted.end = stop_at_contacts(tools.options, end.point.state.piece);
+  if (!accepted.end && new_contacts) accepted.end = stop_at_contacts(tools.options, end.point.state.active_set);
   if (!accepted.end) accepted.end = stop_at_events(tools.options, accepted.arc.events);
   begin_next(origin, passed && passed->entered ? passed->entered->begin : end.point, smooth, accepted.leave);
   if (passed && passed->entered) accepted.leave.known_end = std::move(passed->entered->first);
@@ -244,8 +245,8 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
   return accepted;
 }
 
-// To the first of the target values between a change of contact and the piece that was entered behind it, and from the
-// last one on to where that piece begins.
+// To the first of the target values between a change of contact and the active set that was entered behind it, and from
+// the last one on to where that active set begins.
 Accepted accept_value_ahead(const TraceTools& tools, const TracerState& state) {
   Accepted accepted{.leave = state.from, .corners_without_progress = state.corners_without_progress};
   Departure& leave = accepted.leave;
@@ -265,7 +266,7 @@ Accepted accept_value_ahead(const TraceTools& tools, const TracerState& state) {
 ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s, Effort effort) {
   const StepOrigin origin{.from = state.from,
                           .start = state.start,
-                          .metric = tools.metric_on(state.from.point.state.piece, state.lambda_scale),
+                          .metric = tools.metric_on(state.from.point.state.active_set, state.lambda_scale),
                           .leaves_branch_point = state.points == 1 && state.start.forward,
                           .effort = effort};
   if (!state.from.values_ahead.empty())
@@ -285,7 +286,7 @@ ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s, Ef
   }
   if (const auto* const why = std::get_if<Rejected>(&step.result)) return rejected(*why);
   ArcEndSearch located = events_of(tools, origin, std::get<StepEnd>(std::move(step.result)));
-  if (!located.end || strays_from_piece(*located.end))
+  if (!located.end || strays_from_active_set(*located.end))
     return rejected({.outcome = StepOutcome::events_unclear, .failure = located.failure});
   attempt.result = accept(tools, state, origin, std::move(*located.end), s);
   return attempt;

@@ -19,7 +19,8 @@ struct StepProgress {
 /// An arc that is taken, and where it leads.
 struct Accepted {
   Arc arc{};
-  Departure leave{};  ///< where the next step begins: at the arc's end, or near the beginning of a piece entered there
+  Departure
+      leave{};  ///< where the next step begins: at the arc's end, or near the beginning of an active set entered there
   std::optional<BranchEnd> end{};
   std::optional<CornerVisit> visit{};  ///< to be remembered
   int corners_without_progress = 0;
@@ -33,8 +34,8 @@ struct ArcAttempt {
 };
 
 /// One arc by a step of length s: predict and correct, land on the first change of contacts, then on the first event
-/// before it; leave the change. Where the step's end is known already, the first point of a piece that was just entered
-/// among such, the arc passes the same checks from there on.
+/// before it; leave the change. Where the step's end is known already, the first point of an active set that was just
+/// entered among such, the arc passes the same checks from there on.
 ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s, Effort effort = Effort::usual);
 
 }  // namespace arcwall

@@ -39,7 +39,7 @@ CorrectorResult correct_start(TraceTools& tools, const Metric& metric, const Sta
 BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
   const double first = state.start.sense * tools.options.step.first;
   const State& start = state.start.state;
-  const Metric metric = tools.metric_on(start.piece, state.lambda_scale);
+  const Metric metric = tools.metric_on(start.active_set, state.lambda_scale);
   const Direction forward{.dx = Vector::Zero(start.x.size()), .dlambda = first > 0.0 ? 1.0 : -1.0};
   CorrectorResult result = correct_start(tools, metric, start, forward);
   BranchBegun begun;
@@ -51,9 +51,9 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
   PathPoint at = path_point(tools.system, metric, std::move(result), forward);
   decide_count(tools, at);
   std::vector<Event> events;
-  const Piece& piece = at.state.piece;
-  if (tools.system.guard_count(piece) > 0 &&
-      !degenerate_contacts(at.guards, piece, tools.options.guard_tolerance).empty()) {
+  const ActiveSet& active_set = at.state.active_set;
+  if (tools.system.guard_count(active_set) > 0 &&
+      !degenerate_contacts(at.guards, active_set, tools.options.guard_tolerance).empty()) {
     CornerPassed passed =
         turn_corner(tools, {.at = at, .lambda_scale = state.lambda_scale, .begins_branch = true}, std::nullopt, {});
     begun.end = std::move(passed.end);
@@ -63,7 +63,7 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
     at = std::move(passed.at);
   }
   at.count = tools.counter.count(at.state, at.negative_eigenvalues);
-  std::optional<EnteredPiece> entered;
+  std::optional<EnteredActiveSet> entered;
   if (const auto bound = bound_passed_at(at, tools.options.guard_tolerance)) {
     CornerPassed passed = pass_bound(tools,
                                      {.at = at,
@@ -108,7 +108,7 @@ std::optional<PathPoint> point_just_behind(TraceTools& tools, const Metric& metr
 BranchBegun begin_at_branch_point(TraceTools& tools, const TracerState& state) {
   const BranchStart& start = state.start;
   const Direction& forward = *start.forward;
-  const Metric metric = tools.metric_on(start.state.piece, state.lambda_scale);
+  const Metric metric = tools.metric_on(start.state.active_set, state.lambda_scale);
   CorrectorResult result = tools.corrector.inspect(start.state, metric, forward);
   result.state = start.state;
   result.tangent = forward;
@@ -131,7 +131,7 @@ BranchBegun begin_behind_corner(TraceTools& tools, const TracerState& state) {
   const BranchStart& start = state.start;
   const EnteredBranch& entered = *start.entered;
   const auto point_at = [&](const State& there, const Direction& forward) {
-    const Metric metric = tools.metric_on(there.piece, state.lambda_scale);
+    const Metric metric = tools.metric_on(there.active_set, state.lambda_scale);
     CorrectorResult result = tools.corrector.inspect(there, metric, forward);
     result.state = there;
     return path_point(tools.system, metric, std::move(result), forward);
@@ -149,7 +149,7 @@ BranchBegun begin_behind_corner(TraceTools& tools, const TracerState& state) {
   BranchBegun begun{.arc = first_arc(corner, {})};
   begun.from.point = counted(entered.begin);
   const PathPoint& from = begun.from.point;
-  const Metric metric = tools.metric_on(first.state.piece, state.lambda_scale);
+  const Metric metric = tools.metric_on(first.state.active_set, state.lambda_scale);
   begun.step_length = std::max(metric.distance(first.state, from.state), entered.distance);
   begun.from.signs = signs_at(tools.detectors, from);
   begun.from.negative_eigenvalues = from.negative_eigenvalues;

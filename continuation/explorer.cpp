@@ -100,7 +100,7 @@ BranchStart start_along(const Event& event, const TriedWay& tried, std::optional
   const BranchPoint& point = *event.branching;
   if (tried.entered) return {.state = event.state, .entered = tried.entered, .unstable = unstable};
   BranchStart start{.state = point.state};
-  start.state.piece = tried.step.state.piece;
+  start.state.active_set = tried.step.state.active_set;
   start.forward = tried.way.forward;
   start.mode = tried.way.across;
   start.distance = tried.step.distance;
@@ -109,7 +109,7 @@ BranchStart start_along(const Event& event, const TriedWay& tried, std::optional
 }
 
 BranchStart start_along(const System& system, const Event& event, const BranchPoint::Way& way, double distance) {
-  BranchStart start{.state = system.with_piece(event.branching->state, way.piece), .distance = distance};
+  BranchStart start{.state = system.with_active_set(event.branching->state, way.active_set), .distance = distance};
   start.forward = start.mode = way.direction;
   start.unstable = event.unstable_before;
   return start;
@@ -118,14 +118,14 @@ BranchStart start_along(const System& system, const Event& event, const BranchPo
 // Layouts that were made on other branches mean other unknowns, in which a place cannot be found again; it has its
 // load, its energy and its contacts, and so has its mirror image.
 bool is_same_on_another_layout(const System& system, const State& a, const State& b) {
-  return a.piece.layout() != b.piece.layout() && a.piece.closed_count() == b.piece.closed_count() &&
+  return a.active_set.layout() != b.active_set.layout() && a.active_set.closed_count() == b.active_set.closed_count() &&
          nearly_equal(a.lambda, b.lambda, 0.0) && nearly_equal(system.energy(a), system.energy(b), 0.0);
 }
 
 bool is_known(const System& system, const std::vector<KnownPoint>& known, const BranchPoint& point,
               const Metric& metric) {
   return std::any_of(known.begin(), known.end(), [&](const KnownPoint& other) {
-    if (other.state.piece == point.state.piece)
+    if (other.state.active_set == point.state.active_set)
       return metric.distance(turned_towards(system, point.state, other.state), point.state) <= same_branch_point;
     return is_same_on_another_layout(system, other.state, point.state);
   });
@@ -189,7 +189,7 @@ void Explorer::stop(const BranchEnd& end) {
 void Explorer::look_at(const Event& event) {
   const BranchPoint& point = *event.branching;
   if (event.unconfirmed) return;
-  const Metric metric(system_.weights(point.state.piece), lambda_scale_);
+  const Metric metric(system_.weights(point.state.active_set), lambda_scale_);
   if (is_known(system_, known_, point, metric)) return;
   known_.push_back({.state = point.state, .branch = current_});
   if (tracer_->end() && tracer_->end()->reason == EndReason::stop) return;
@@ -206,7 +206,7 @@ void Explorer::look_at(const Event& event) {
     return;  // the tracer has taken the one that `follow` wants
   }
   const bool ahead_is_stable = event.unstable_after == Index{0} && !mirror_ahead;
-  const bool nothing_is_known = system_.leaves_stability_open(point.state.piece);
+  const bool nothing_is_known = system_.leaves_stability_open(point.state.active_set);
   if (options_.policy == BranchPolicy::most_stable && (ahead_is_stable || nothing_is_known)) return;
 
   const std::vector<TriedWay> ways = tried_ways(system_, trace_, point, metric, options_.distance);
@@ -225,12 +225,12 @@ void Explorer::look_behind(const Event& event, const Arc& arc) {
   const State& before = event.branching->state;
   const bool spreads = std::any_of(arc.events.begin(), arc.events.end(), [&](const Event& next) {
     const bool grows = next.kind == EventKind::contact_spreads || next.kind == EventKind::contact_splits;
-    return grows && next.state.piece == before.piece &&
-           Metric(system_.weights(before.piece), lambda_scale_).distance(next.state, before) <= of_mesh;
+    return grows && next.state.active_set == before.active_set &&
+           Metric(system_.weights(before.active_set), lambda_scale_).distance(next.state, before) <= of_mesh;
   });
   const PathPoint& behind = tracer_->here();
-  if (!spreads || tracer_->end() || behind.state.piece == before.piece) return stop_unstable();
-  const Metric metric(system_.weights(behind.state.piece), lambda_scale_);
+  if (!spreads || tracer_->end() || behind.state.active_set == before.active_set) return stop_unstable();
+  const Metric metric(system_.weights(behind.state.active_set), lambda_scale_);
   Corrector corrector(system_, trace_.corrector, std::abs(trace_.step.first), trace_.factorization);
   BranchPoint corner = branch_point_before(system_, corrector, metric, behind);
   corner.at_corner = true;
@@ -250,7 +250,7 @@ void Explorer::stop_unstable() {
 // Decides which of the ways off a branch point are traced. `point` is where they leave: that of the event, or a corner
 // right behind it.
 void Explorer::leave(const Event& event, const BranchPoint& point, const std::vector<TriedWay>& ways) {
-  const Metric metric(system_.weights(point.state.piece), lambda_scale_);
+  const Metric metric(system_.weights(point.state.active_set), lambda_scale_);
   const bool mirror_ahead = point.ends_its_own_branch();
   const bool mirror_image = mirror_images(ways);
   const std::optional<Index> unstable = unstable_at(
@@ -293,10 +293,11 @@ void Explorer::enqueue(const Event& event, BranchStart start, int sign, bool mir
 void Explorer::drop_arrived_at(int other) {
   if (!tracer_->before()) return;
   const State &last = tracer_->here().state, &before = tracer_->before()->state;
-  const Metric metric(system_.weights(last.piece), lambda_scale_);
+  const Metric metric(system_.weights(last.active_set), lambda_scale_);
   const Direction step = difference(last, before);
   std::erase_if(queue_, [&](const Queued& queued) {
-    if (queued.record.parent != other || queued.start.state.piece != last.piece || !queued.start.forward) return false;
+    if (queued.record.parent != other || queued.start.state.active_set != last.active_set || !queued.start.forward)
+      return false;
     const State point = turned_towards(system_, last, queued.start.state);
     const Direction arrival = difference(point, before);
     const double length = metric.norm(arrival);

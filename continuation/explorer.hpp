@@ -82,7 +82,7 @@ class Explorer {
     if (!under_way) return;
     archive.require(current_ >= 0 && static_cast<std::size_t>(current_) < branches_.size());
     if constexpr (Archive::reads)
-      tracer_ = make_tracer({.state = {.piece = system_.open_piece()}, .lambda_scale = lambda_scale_});
+      tracer_ = make_tracer({.state = {.active_set = system_.open_active_set()}, .lambda_scale = lambda_scale_});
     tracer_->serialize(archive);
   }
 

@@ -3,9 +3,9 @@
 namespace arcwall {
 
 FactorStatus FactorizedEquations::linearize_at(const State& state) {
-  of_.linearize(state, workspace(state.piece));
+  of_.linearize(state, workspace(state.active_set));
   if (!all_finite(now_.F)) return FactorStatus::not_finite;
-  return solver_.factorize(now_, of_.multiplier_count(state.piece));
+  return solver_.factorize(now_, of_.multiplier_count(state.active_set));
 }
 
 FactorStatus FactorizedEquations::set_point(const State& state) {
@@ -15,9 +15,9 @@ FactorStatus FactorizedEquations::set_point(const State& state) {
   return status;
 }
 
-Linearization& FactorizedEquations::workspace(const Piece& piece) {
+Linearization& FactorizedEquations::workspace(const ActiveSet& active_set) {
   arrived_ = false;
-  if (!is_on(piece)) piece_ = piece;
+  if (!is_on(active_set)) active_set_ = active_set;
   return now_;
 }
 

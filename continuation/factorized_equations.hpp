@@ -9,7 +9,7 @@
 namespace arcwall {
 
 /// The equations at one state after another, with the factorization of K and the eigenpairs nearest zero, which are
-/// followed along. Of large structures this is most of the memory: who looks at states of one piece shares it.
+/// followed along. Of large structures this is most of the memory: who looks at states of one active set shares it.
 class FactorizedEquations {
  public:
   /// `equations` must outlive this. `make`: what K is factorized by.
@@ -28,8 +28,8 @@ class FactorizedEquations {
   /// And whether that is this one.
   bool is_at(const State& state) const { return arrived_ && here_ == state; }
 
-  /// Whether the matrix at hand has the pattern of this piece, so that its analysis serves again.
-  bool is_on(const Piece& piece) const { return piece_ == piece; }
+  /// Whether the matrix at hand has the pattern of this active set, so that its analysis serves again.
+  bool is_on(const ActiveSet& active_set) const { return active_set_ == active_set; }
 
   Linearization& equations() { return now_; }
   const Linearization& equations() const { return now_; }
@@ -38,8 +38,8 @@ class FactorizedEquations {
   NearNullTracker& tracker() { return tracker_; }
   const NearNullTracker& tracker() const { return tracker_; }
 
-  /// The equations alone, to be evaluated at other states of a piece: nothing is factorized or arrived at then.
-  Linearization& workspace(const Piece& piece);
+  /// The equations alone, to be evaluated at other states of an active set: nothing is factorized or arrived at then.
+  Linearization& workspace(const ActiveSet& active_set);
 
   /// From where the eigenpairs nearest zero are followed.
   void track_from(const NearNull& nearest);
@@ -49,7 +49,7 @@ class FactorizedEquations {
   Linearization now_;
   BorderedSolver solver_;
   NearNullTracker tracker_;
-  std::optional<Piece> piece_;  // of the matrix
+  std::optional<ActiveSet> active_set_;  // of the matrix
   State here_;
   bool arrived_ = false;
 };

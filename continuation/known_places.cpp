@@ -13,8 +13,8 @@ namespace arcwall {
 
 namespace {
 
-// Whether the arc passes a place of its piece: it lies beside the chord, and on the path as exactly as such places are
-// located.
+// Whether the arc passes a place of its active set: it lies beside the chord, and on the path as exactly as such places
+// are located.
 bool passes(TraceTools& tools, const StepOrigin& origin, const PathPoint& to, const State& place) {
   const Metric& metric = origin.metric;
   const Segment segment(metric, origin.point(), to);
@@ -33,7 +33,7 @@ bool passes(TraceTools& tools, const StepOrigin& origin, const PathPoint& to, co
 
 // The known state as the arc passes it, by its own multiples of 2π; empty if it does not pass.
 std::optional<State> passed(TraceTools& tools, const StepOrigin& origin, const PathPoint& to, const State& known) {
-  if (known.piece != to.state.piece) return std::nullopt;
+  if (known.active_set != to.state.active_set) return std::nullopt;
   // What lies beside the chord has its λ there, too.
   const double lambda_off = std::abs(known.lambda - to.state.lambda) / origin.metric.lambda_scale();
   if (lambda_off > 1.1 * (to.arc - origin.point().arc) + singular_point_accuracy) return std::nullopt;

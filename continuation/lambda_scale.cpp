@@ -21,7 +21,7 @@ struct ModalStiffness {
 };
 
 ModalStiffness modal_stiffness(TraceTools& tools, const State& state, const Matrix& modes) {
-  Linearization& at = tools.workspace(state.piece);
+  Linearization& at = tools.workspace(state.active_set);
   tools.system.linearize(state, at);
   const auto form = [&](const Matrix& v) -> Matrix {
     return v.transpose() * (at.K.selfadjointView<Eigen::Lower>() * v);
@@ -56,14 +56,14 @@ double distance_to_buckling(TraceTools& tools, const State& start, const Directi
 
 double natural_lambda_scale(TraceTools& tools, const State& start) {
   const double first = std::abs(tools.options.step.first);
-  const Metric metric = tools.metric_on(start.piece, 1.0);
+  const Metric metric = tools.metric_on(start.active_set, 1.0);
   const Direction up{.dx = Vector::Zero(start.x.size()), .dlambda = 1.0};
   const CorrectorResult at = tools.corrector.inspect(start, metric, up);
   tools.corrector.track_from({});
   if (!at.converged()) return first;
   const double dlambda = at.tangent.dlambda;
   const double moves = std::sqrt(metric.inner_x(at.tangent, at.tangent) +
-                                 dlambda * dlambda * tools.system.squared_motion_by_lambda(start.piece));
+                                 dlambda * dlambda * tools.system.squared_motion_by_lambda(start.active_set));
   const double rate = std::abs(dlambda) / moves;
   if (!(std::isfinite(rate) && rate > 0.0) || first <= unmoved * rate) return first;
   const Direction t{.dx = at.tangent.dx / moves, .dlambda = dlambda / moves};

@@ -40,15 +40,15 @@ std::optional<Arc> LoadIncrements::to(double lambda) {
   const std::optional<Increment> increment = solve(lambda);
   if (!increment) return std::nullopt;
   const PathPoint before = std::exchange(last_, point(*increment, lambda));
-  return Arc{.to = last_, .events = changes(before.state.piece, last_, before.state.lambda)};
+  return Arc{.to = last_, .events = changes(before.state.active_set, last_, before.state.lambda)};
 }
 
 // Contacts change until none pulls and none penetrates; in the end one by one, the worst first. Where the stiffness is
 // not positive there may be no such set: the next increment begins with what is violated.
 std::optional<LoadIncrements::Increment> LoadIncrements::solve(double lambda) {
-  Piece piece = last_.state.piece;
+  ActiveSet active_set = last_.state.active_set;
   for (int round = 0;; ++round) {
-    std::optional<Increment> increment = solve_on(piece, lambda);
+    std::optional<Increment> increment = solve_on(active_set, lambda);
     if (!increment) return std::nullopt;
     std::vector<Index> wrong = violated(*increment);
     if (wrong.empty()) return increment;
@@ -58,18 +58,18 @@ std::optional<LoadIncrements::Increment> LoadIncrements::solve(double lambda) {
     }
     if (round >= rounds_together) wrong.erase(wrong.begin() + 1, wrong.end());
     for (const Index j : wrong) {
-      auto& closed = piece[static_cast<std::size_t>(j)];
+      auto& closed = active_set[static_cast<std::size_t>(j)];
       closed = closed ? 0 : 1;
     }
   }
 }
 
-std::optional<LoadIncrements::Increment> LoadIncrements::solve_on(const Piece& piece, double lambda) {
-  Increment increment{.from = system_.with_piece(last_.state, piece)};
+std::optional<LoadIncrements::Increment> LoadIncrements::solve_on(const ActiveSet& active_set, double lambda) {
+  Increment increment{.from = system_.with_active_set(last_.state, active_set)};
   State at = increment.from;
   at.lambda = lambda;
   system_.linearize(at, now_);
-  const Index multipliers = system_.multiplier_count(piece);
+  const Index multipliers = system_.multiplier_count(active_set);
   const FactorStatus status = solver_->factorize(now_, multipliers);
   Matrix dx = -now_.F;
   if (status != FactorStatus::ok || !solver_->solve_inner(dx) || !dx.allFinite()) {
@@ -99,7 +99,7 @@ PathPoint LoadIncrements::point(const Increment& increment, double lambda) {
   const Direction step{.dx = increment.dx, .dlambda = lambda - increment.from.lambda};
   point.state.x += step.dx;
   point.state.lambda = lambda;
-  const Metric metric(system_.weights(point.state.piece), lambda_scale_);
+  const Metric metric(system_.weights(point.state.active_set), lambda_scale_);
   point.arc = last_.arc + metric.norm(step);
   point.negative_eigenvalues = increment.negative;
   point.count = {.unstable = increment.negative,
@@ -112,14 +112,16 @@ PathPoint LoadIncrements::point(const Increment& increment, double lambda) {
   return point;
 }
 
-std::vector<Event> LoadIncrements::changes(const Piece& before, const PathPoint& after, double lambda_before) const {
+std::vector<Event> LoadIncrements::changes(const ActiveSet& before, const PathPoint& after,
+                                           double lambda_before) const {
   std::vector<Event> events;
   for (const EventKind kind : {EventKind::contact_opens, EventKind::contact_closes}) {
     Event event{.kind = kind, .state = after.state, .arc = after.arc, .residual = after.residual};
     event.lambda_uncertainty = std::abs(after.state.lambda - lambda_before);  // it happened on the way
     event.unstable_before = event.unstable_after = after.count.unstable;
     for (std::size_t j = 0; j < before.size(); ++j)
-      if (before[j] != after.state.piece[j] && (after.state.piece[j] != 0) == (kind == EventKind::contact_closes))
+      if (before[j] != after.state.active_set[j] &&
+          (after.state.active_set[j] != 0) == (kind == EventKind::contact_closes))
         event.guards.push_back(static_cast<Index>(j));
     if (!event.guards.empty()) events.push_back(std::move(event));
   }

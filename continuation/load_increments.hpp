@@ -51,15 +51,15 @@ class LoadIncrements {
 
  private:
   struct Increment {
-    State from{};  // on the piece that holds behind the increment
+    State from{};  // on the active set that holds behind the increment
     Vector dx{};
     Index negative = 0;  // eigenvalues of K
   };
   std::optional<Increment> solve(double lambda);
-  std::optional<Increment> solve_on(const Piece& piece, double lambda);
+  std::optional<Increment> solve_on(const ActiveSet& active_set, double lambda);
   std::vector<Index> violated(const Increment& increment) const;
   PathPoint point(const Increment& increment, double lambda);
-  std::vector<Event> changes(const Piece& before, const PathPoint& after, double lambda_before) const;
+  std::vector<Event> changes(const ActiveSet& before, const PathPoint& after, double lambda_before) const;
 
   const UnilateralSystem& system_;
   std::function<void(const State&)> advance_;

@@ -60,7 +60,7 @@ enum class BranchType {
 struct BranchPoint {
   /// Stores an outgoing direction at an active-set change: its active set, and the unit direction in these unknowns.
   struct Way {
-    Piece piece{};
+    ActiveSet active_set{};
     Direction direction{};
   };
 

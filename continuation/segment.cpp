@@ -14,7 +14,7 @@ State Segment::at(double t) const {
   const Direction &u = from_.tangent, &v = to_.tangent;
   return {.x = a.x + h01 * (b.x - a.x) + (h10 * u.dx + h11 * v.dx),
           .lambda = a.lambda + h01 * (b.lambda - a.lambda) + (h10 * u.dlambda + h11 * v.dlambda),
-          .piece = a.piece};
+          .active_set = a.active_set};
 }
 
 bool Segment::follows_the_path() const {

@@ -5,7 +5,7 @@
 
 namespace arcwall {
 
-/// The stretch between two points of one piece, with cubic interpolation from values and rates at its ends.
+/// The stretch between two points of one active set, with cubic interpolation from values and rates at its ends.
 class Segment {
  public:
   /// All three must outlive the segment.

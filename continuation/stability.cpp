@@ -11,9 +11,9 @@ namespace arcwall {
 std::optional<Index> negative_eigenvalues(const Equations& system, const State& state, const BorderedSolver& solver,
                                           const Linearization& now, const NearNull& nearest) {
   if (!system.has_stability()) return std::nullopt;
-  const Index multipliers = system.multiplier_count(state.piece);
+  const Index multipliers = system.multiplier_count(state.active_set);
   if (now.B.cols() == 0) {
-    const Vector weights = system.weights(state.piece);
+    const Vector weights = system.weights(state.active_set);
     const auto negative = negative_count(solver.inner(), now.K, weights, multipliers, nearest, solver.make());
     return negative ? std::optional(*negative - multipliers) : std::nullopt;
   }
@@ -23,15 +23,15 @@ std::optional<Index> negative_eigenvalues(const Equations& system, const State& 
   return let_go ? std::optional(inertia->negative - multipliers + *let_go) : std::nullopt;
 }
 
-Piece strictly_active(const UnilateralSystem& system, const State& state, double force_tolerance) {
-  Piece piece = state.piece;
-  for (std::size_t j = 0; j < piece.size(); ++j) {
+ActiveSet strictly_active(const UnilateralSystem& system, const State& state, double force_tolerance) {
+  ActiveSet active_set = state.active_set;
+  for (std::size_t j = 0; j < active_set.size(); ++j) {
     const auto contact = static_cast<Index>(j);
-    if (system.is_two_sided(state.piece, contact)) continue;
-    const auto force = system.multiplier_index(state.piece, contact);
-    if (force && state.x[*force] <= force_tolerance * system.multiplier_scale()) piece[j] = 0;
+    if (system.is_two_sided(state.active_set, contact)) continue;
+    const auto force = system.multiplier_index(state.active_set, contact);
+    if (force && state.x[*force] <= force_tolerance * system.multiplier_scale()) active_set[j] = 0;
   }
-  return piece;
+  return active_set;
 }
 
 void StabilityCounter::track_from(const NearNull& nearest) {
@@ -42,14 +42,14 @@ void StabilityCounter::track_from(const NearNull& nearest) {
 // With degenerate contacts W the motions allowed are the cone {v : G_S v = 0, G_W v ≥ 0}. It lies inside {G_S v = 0},
 // so a count of 0 there means stable; it contains {G_S v = 0, G_W v = 0}, so a count above 0 there means unstable.
 StabilityCount StabilityCounter::count(const State& state, std::optional<Index> negative_held) {
-  const Piece strong = strictly_active(system_, state, force_tolerance_);
+  const ActiveSet strong = strictly_active(system_, state, force_tolerance_);
   if (!negative_held) negative_held = negative_on(state);
   const std::optional<Index> unstable =
-      strong == state.piece ? negative_held : negative_on(system_.with_piece(state, strong));
+      strong == state.active_set ? negative_held : negative_on(system_.with_active_set(state, strong));
   StabilityCount count{.unstable = unstable};
   if (unstable && *unstable == 0) count.stability = Stability::stable;
   if (negative_held && *negative_held > 0) count.stability = Stability::unstable;
-  if (!system_.leaves_stability_open(state.piece)) return count;
+  if (!system_.leaves_stability_open(state.active_set)) return count;
   return {.stability = count.stability == Stability::unstable ? Stability::unstable : Stability::undecided};
 }
 
@@ -65,7 +65,7 @@ void StabilityCounter::remember(const State& state, std::optional<Index> negativ
 }
 
 std::optional<Index> StabilityCounter::counted_on(const State& state) {
-  const bool shares = shared_.is_on(state.piece);
+  const bool shares = shared_.is_on(state.active_set);
   FactorizedEquations& at = shares ? shared_ : own_;
   if (!shares && start_ != nullptr) own_.track_from(*std::exchange(start_, nullptr));
   const FactorStatus status = at.linearize_at(state);
@@ -73,7 +73,7 @@ std::optional<Index> StabilityCounter::counted_on(const State& state) {
   if (status == FactorStatus::not_finite || (bordered && !regular)) return std::nullopt;
   NearNull nearest;
   if (regular && !bordered) {
-    const Vector weights = system_.weights(state.piece);
+    const Vector weights = system_.weights(state.active_set);
     Matrix columns = at.tracker().right_hand_sides(weights);
     at.solver().inner().solve(columns);
     nearest = at.tracker().advance(weights, columns);

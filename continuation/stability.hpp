@@ -8,13 +8,13 @@
 
 namespace arcwall {
 
-/// Negative eigenvalues of K with all contacts of the state's piece held; what a border holds gives way. Empty where K
-/// is singular. Without a border also where the pivots do not tell: `nearest` are the eigenpairs nearest zero that were
-/// found there.
+/// Negative eigenvalues of K with all contacts of the state's active set held; what a border holds gives way. Empty
+/// where K is singular. Without a border also where the pivots do not tell: `nearest` are the eigenpairs nearest zero
+/// that were found there.
 std::optional<Index> negative_eigenvalues(const Equations& system, const State& state, const BorderedSolver& solver,
                                           const Linearization& now, const NearNull& nearest);
 
-/// Counts. With the equations that it shares where they are on the same piece, with its own elsewhere; keeps
+/// Counts. With the equations that it shares where they are on the same active set, with its own elsewhere; keeps
 /// workspaces from call to call.
 class StabilityCounter {
  public:
@@ -26,7 +26,7 @@ class StabilityCounter {
   /// `negative_held`: the count with all closed contacts held, if it is known already.
   StabilityCount count(const State& state, std::optional<Index> negative_held);
 
-  /// Negative eigenvalues with all contacts of the state's piece held; empty where K is singular.
+  /// Negative eigenvalues with all contacts of the state's active set held; empty where K is singular.
   std::optional<Index> negative_on(const State& state);
 
   /// What was counted elsewhere: negative_on() need not count again there.
@@ -48,7 +48,7 @@ class StabilityCounter {
   std::optional<Index> last_negative_;  // on it
 };
 
-/// The piece on which only the contacts that carry more than the tolerance are closed.
-Piece strictly_active(const UnilateralSystem& system, const State& state, double force_tolerance);
+/// The active set on which only the contacts that carry more than the tolerance are closed.
+ActiveSet strictly_active(const UnilateralSystem& system, const State& state, double force_tolerance);
 
 }  // namespace arcwall

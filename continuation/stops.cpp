@@ -5,8 +5,8 @@
 
 namespace arcwall {
 
-std::optional<BranchEnd> stop_at_contacts(const TraceOptions& options, const Piece& piece) {
-  const Index closed = piece.closed_count();
+std::optional<BranchEnd> stop_at_contacts(const TraceOptions& options, const ActiveSet& active_set) {
+  const Index closed = active_set.closed_count();
   if (!options.stop_contacts || closed < *options.stop_contacts) return std::nullopt;
   return BranchEnd{.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
 }

@@ -58,8 +58,8 @@ struct TraceOptions {
   double mesh_error_of_forces = mesh_error;
 
   /// Returns the mesh error of a guard [scale of guards].
-  double mesh_error_of(const Piece& piece, Index guard) const {
-    const bool is_force = guard < static_cast<Index>(piece.size()) && piece[static_cast<std::size_t>(guard)];
+  double mesh_error_of(const ActiveSet& active_set, Index guard) const {
+    const bool is_force = guard < static_cast<Index>(active_set.size()) && active_set[static_cast<std::size_t>(guard)];
     return is_force ? mesh_error_of_forces : mesh_error;
   }
 

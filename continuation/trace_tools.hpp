@@ -25,10 +25,12 @@ struct TraceTools {
   TraceTools(const System& from_system, TraceOptions from_options);
   TraceTools(const TraceTools&) = delete;  // the counter shares the corrector's equations
 
-  /// The equations of a piece, to be evaluated where the corrector is not.
-  Linearization& workspace(const Piece& piece) { return corrector.factorized().workspace(piece); }
+  /// The equations of an active set, to be evaluated where the corrector is not.
+  Linearization& workspace(const ActiveSet& active_set) { return corrector.factorized().workspace(active_set); }
 
-  Metric metric_on(const Piece& piece, double lambda_scale) const { return {system.weights(piece), lambda_scale}; }
+  Metric metric_on(const ActiveSet& active_set, double lambda_scale) const {
+    return {system.weights(active_set), lambda_scale};
+  }
 };
 
 /// How long a correction may take. Of a nearly perfect structure hardly more than the sum of the lengths of straight
@@ -40,7 +42,7 @@ enum class Effort { usual, patient };
 struct StepOrigin {
   const Departure& from;
   const BranchStart& start;          ///< of the branch
-  Metric metric;                     ///< of the piece of `from`
+  Metric metric;                     ///< of the active set of `from`
   bool leaves_branch_point = false;  ///< the step is the first one off a branch point
   Effort effort = Effort::usual;     ///< of its correction
 

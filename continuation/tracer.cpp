@@ -65,11 +65,12 @@ void tell_ledger(const TraceOptions& options, const ArcAttempt& attempt) {
   options.ledger(row);
 }
 
-// The bounds of a piece that are near at a point and sink along the path, the one that is reached first before others.
+// The bounds of an active set that are near at a point and sink along the path, the one that is reached first before
+// others.
 std::vector<Landing> near_bounds(const PathPoint& at) {
   constexpr double near = 1e-2;  // of the scale of guards
   std::vector<Landing> bounds;
-  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j)
+  for (auto j = static_cast<Index>(at.state.active_set.size()); j < at.guards.size(); ++j)
     if (at.guards[j] > 0.0 && at.guards[j] < near && at.guard_rates[j] < 0.0)
       bounds.push_back({.guard = j, .slack = at.guards[j]});
   const auto way = [&](const Landing& bound) { return -at.guards[bound.guard] / at.guard_rates[bound.guard]; };
@@ -119,7 +120,7 @@ std::optional<Accepted> step_patiently(TraceTools& tools, const TracerState& sta
 // The length of the next step, as the tangent where it begins allows it.
 void limit_step(const TraceTools& tools, TracerState& state) {
   const PathPoint& from = state.from.point;
-  const Metric metric = tools.metric_on(from.state.piece, state.lambda_scale);
+  const Metric metric = tools.metric_on(from.state.active_set, state.lambda_scale);
   state.step.limit(std::sqrt(metric.inner_x(from.tangent, from.tangent)), from.tangent.dlambda);
 }
 
@@ -146,7 +147,7 @@ Tracer::Tracer(const System& system, BranchStart start, TraceOptions options, st
   state_.from.point.state = start.state;
   state_.start = std::move(start);
   if (tools_->options.events == EventSearch::none) return;
-  const Metric metric = tools_->metric_on(state_.start.state.piece, state_.lambda_scale);
+  const Metric metric = tools_->metric_on(state_.start.state.active_set, state_.lambda_scale);
   auto& detectors = tools_->detectors;
   detectors.push_back(limit_point_detector(metric));
   for (const Watch& watch : watched) detectors.push_back(turning_detector(system, metric, watch.quantity, watch.label));
@@ -209,7 +210,7 @@ std::optional<Arc> Tracer::begin() {
   state_.step.restart(begun.step_length);
   if (begun.visit) remember(state_.visited, std::move(*begun.visit));
   const bool contacts_change = begun.arc.events.size() > 1;
-  if (contacts_change) state_.end = stop_at_contacts(tools_->options, begun.arc.to.state.piece);
+  if (contacts_change) state_.end = stop_at_contacts(tools_->options, begun.arc.to.state.active_set);
   if (!state_.end) state_.end = stop_at_events(tools_->options, begun.arc.events);
   state_.points = 1;
   state_.greatest_lambda = std::abs(begun.arc.to.state.lambda);

@@ -12,7 +12,7 @@
 namespace arcwall {
 
 /// A point that the next step leaves, and what is known just behind it. It is the last accepted one; behind a
-/// transition to a piece that begins with a new span it lies near the beginning of that piece.
+/// transition to an active set that begins with a new span it lies near the beginning of that active set.
 struct Departure {
   PathPoint point{};
   std::optional<PathPoint> before{};              ///< the last point on the same smooth arc, without its eigenpairs
@@ -23,10 +23,10 @@ struct Departure {
   StabilityCount count_after{};                   ///< just behind `point`
   Index zero_eigenvalues = 0;                     ///< at `point`
   std::vector<SingularPoint> pending_singular{};  ///< located with `point` and just behind it: the next points
-  std::optional<Landing> passed_bound{};          ///< `point` lies a little beyond this validity bound of its piece
-  std::optional<PathPoint> known_end{};           ///< of the next step: the first point of a piece that was entered
-  std::vector<ValuePoint> values_ahead{};         ///< the next points, between a change of contact and such a piece
-  std::optional<PathPoint> begin{};               ///< of that piece, behind those points
+  std::optional<Landing> passed_bound{};   ///< `point` lies a little beyond this validity bound of its active set
+  std::optional<PathPoint> known_end{};    ///< of the next step: the first point of an active set that was entered
+  std::vector<ValuePoint> values_ahead{};  ///< the next points, between a change of contact and such an active set
+  std::optional<PathPoint> begin{};        ///< of that active set, behind those points
 
   /// The eigenpairs nearest zero that were known last.
   const NearNull& nearest() const { return point.nearest.values.size() > 0 ? point.nearest : last_pairs; }

@@ -35,7 +35,7 @@ DerivativeReport check_derivatives(const UnilateralSystem& system, const State& 
   Linearization now;
   system.linearize(state, now);
   const auto residual = [&](const State& s) {
-    Vector F(system.size(s.piece));
+    Vector F(system.size(s.active_set));
     system.residual(s, F);
     return F;
   };
@@ -48,8 +48,8 @@ DerivativeReport check_derivatives(const UnilateralSystem& system, const State& 
   DerivativeReport report;
   const Vector F = residual(state);
   report.consistency = relative((F - now.F).norm(), F.norm() + K_scale * 1e-12);
-  Matrix guard_rows(system.guard_count(state.piece), n + 1);
-  for (Index j = 0; j < system.guard_count(state.piece); ++j) {
+  Matrix guard_rows(system.guard_count(state.active_set), n + 1);
+  for (Index j = 0; j < system.guard_count(state.active_set); ++j) {
     const Row row = system.guard_gradient(state, j);
     guard_rows.row(j).head(n) = row.dx.transpose();
     guard_rows(j, n) = row.dlambda;
@@ -58,11 +58,11 @@ DerivativeReport check_derivatives(const UnilateralSystem& system, const State& 
     const Vector column = central_difference(residual, state, i, step);
     if (i < n) report.K = std::max(report.K, relative((column - K.col(i)).cwiseAbs().maxCoeff(), K_scale));
     if (i == n) report.F_lambda = relative((column - now.F_lambda).norm(), now.F_lambda.norm());
-    if (i < n && system.multiplier_count(state.piece) == 0) {
+    if (i < n && system.multiplier_count(state.active_set) == 0) {
       const double slope = central_difference(energy, state, i, step);
       report.energy = std::max(report.energy, relative(std::abs(slope - F[i]), F.norm() + K_scale * step));
     }
-    if (system.guard_count(state.piece) == 0) continue;
+    if (system.guard_count(state.active_set) == 0) continue;
     const Vector slopes = central_difference(guards, state, i, step);
     for (Index j = 0; j < slopes.size(); ++j)
       report.guard_gradient = std::max(report.guard_gradient, relative(std::abs(slopes[j] - guard_rows(j, i)),

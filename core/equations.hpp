@@ -10,7 +10,7 @@ namespace arcwall {
 /// Defines equilibrium equations F(x, λ) = 0 that are smooth for each active set: the first of three levels of a
 /// system.
 ///
-/// Equations without contact have one active set, the empty Piece. x has size(piece) entries, in units of the
+/// Equations without contact have one active set, the empty ActiveSet. x has size(active_set) entries, in units of the
 /// implementation's choice; weights() makes them dimensionless. F is internal minus external force. A unit of F_i times
 /// one of x_i is an energy.
 ///
@@ -22,9 +22,9 @@ class Equations {
   virtual ~Equations() = default;
 
   /// Returns the number of unknowns: those of the structure, then one contact force a closed contact.
-  virtual Index size(const Piece& piece) const = 0;
+  virtual Index size(const ActiveSet& active_set) const = 0;
 
-  /// Writes the residual F, size(state.piece) entries.
+  /// Writes the residual F, size(state.active_set) entries.
   virtual void residual(const State& state, Eigen::Ref<Vector> F) const = 0;
 
   /// Writes F, K and F_λ. Allocates the pattern of K again if `out` was last used with another active set.
@@ -33,20 +33,22 @@ class Equations {
   /// Returns the total potential energy: strain energy minus the work of the loads [force·length].
   virtual double energy(const State& state) const = 0;
 
-  /// Returns the weights w of the path metric: Σ w_i x_i² is dimensionless. size(piece) entries, ≥ 0, and 0 for
+  /// Returns the weights w of the path metric: Σ w_i x_i² is dimensionless. size(active_set) entries, ≥ 0, and 0 for
   /// multipliers.
-  virtual Vector weights(const Piece& piece) const { return Vector::Ones(size(piece)) / double(size(piece)); }
+  virtual Vector weights(const ActiveSet& active_set) const {
+    return Vector::Ones(size(active_set)) / double(size(active_set));
+  }
 
   /// Returns the squared length, in that metric, by which a unit of λ moves supports and obstacles or expands members.
-  virtual double squared_motion_by_lambda(const Piece&) const { return 0.0; }
+  virtual double squared_motion_by_lambda(const ActiveSet&) const { return 0.0; }
 
   /// Returns for each unknown the number of its rotation set, or −1. F is unchanged if all unknowns of a set grow by
   /// 2π. Empty if there are no sets; the entries of multipliers may be missing.
-  virtual std::vector<Index> turning_sets(const Piece&) const { return {}; }
+  virtual std::vector<Index> turning_sets(const ActiveSet&) const { return {}; }
 
   /// Returns the number of Lagrange multipliers, the last unknowns of K. Their diagonal of K is 0 or negative. Each
   /// adds one negative eigenvalue to K, which the stability count leaves out.
-  virtual Index multiplier_count(const Piece&) const { return 0; }
+  virtual Index multiplier_count(const ActiveSet&) const { return 0; }
 
   /// Returns true if the negative eigenvalues of K count unstable directions. If false, the tracer neither counts them
   /// nor searches for branch points; an example is the equations of an event that is followed.

@@ -9,8 +9,8 @@
 
 namespace arcwall {
 
-/// The equations F(x, λ) = 0 at one state, with their derivatives. Reused from state to state: while the piece stays
-/// the same, the pattern of K does, and only values are written.
+/// The equations F(x, λ) = 0 at one state, with their derivatives. Reused from state to state: while the active set
+/// stays the same, the pattern of K does, and only values are written.
 ///
 /// ∂F/∂x is symmetric but for a border of a few unknowns s that stand last in x, with as many last equations. Each s_k
 /// belongs to an unknown y_k of K (a moment that holds the body where it slides), which its equation may ask to vanish:
@@ -36,7 +36,7 @@ struct Linearization {
                                            ///< last digit, which K's rounded entries do not. May be empty
   std::vector<GroundTerm> ground{};        ///< what of K's entries joins translation-free nodes to the ground; written
                                            ///< with K in each linearization
-  std::optional<Piece> pattern_of{};       ///< the piece whose pattern K has; empty: not laid out yet
+  std::optional<ActiveSet> pattern_of{};   ///< the active set whose pattern K has; empty: not laid out yet
   std::unique_ptr<Linearization> inner{};  ///< workspace of a system that wraps another
 };
 

@@ -177,7 +177,7 @@ class SlidingLayout : public Layout {
 };
 
 inline const SlidingMesh& mesh_of(const State& state) {
-  return static_cast<const SlidingLayout&>(*state.piece.layout()).mesh();
+  return static_cast<const SlidingLayout&>(*state.active_set.layout()).mesh();
 }
 
 /// `state` must outlive the view.

@@ -22,11 +22,11 @@ class Layout {
 /// Stores an active set: one status a contact, 0 (open) or 1 (closed), and the layout of the degrees of freedom.
 /// The equations are smooth as long as the active set is constant. The last entries are the *kinks* of piecewise linear
 /// laws: 0 up to the kink, 1 beyond it.
-class Piece {
+class ActiveSet {
  public:
-  Piece() = default;
-  Piece(std::initializer_list<std::uint8_t> closed) : closed_(closed) {}
-  Piece(std::size_t contacts, std::uint8_t closed, std::shared_ptr<const Layout> layout = nullptr)
+  ActiveSet() = default;
+  ActiveSet(std::initializer_list<std::uint8_t> closed) : closed_(closed) {}
+  ActiveSet(std::size_t contacts, std::uint8_t closed, std::shared_ptr<const Layout> layout = nullptr)
       : closed_(contacts, closed), layout_(std::move(layout)) {}
 
   std::size_t size() const { return closed_.size(); }
@@ -40,10 +40,10 @@ class Piece {
   const std::shared_ptr<const Layout>& layout() const { return layout_; }
 
   /// Returns the same layout with all contacts open and all kinks 0.
-  Piece all_open() const {
-    Piece piece(size(), 0, layout_);
-    piece.kinks_ = kinks_;
-    return piece;
+  ActiveSet all_open() const {
+    ActiveSet active_set(size(), 0, layout_);
+    active_set.kinks_ = kinks_;
+    return active_set;
   }
 
   /// Return the numbers of kinks (last entries) and of contacts (entries before them).
@@ -51,14 +51,14 @@ class Piece {
   std::size_t contacts() const { return size() - kinks_; }
 
   /// Returns the same contacts and layout with other kink statuses, each 0 or 1.
-  Piece with_kinks(std::span<const std::uint8_t> status) const {
-    Piece piece = *this;
-    piece.closed_.resize(contacts());
-    piece.closed_.insert(piece.closed_.end(), status.begin(), status.end());
-    piece.kinks_ = status.size();
-    return piece;
+  ActiveSet with_kinks(std::span<const std::uint8_t> status) const {
+    ActiveSet active_set = *this;
+    active_set.closed_.resize(contacts());
+    active_set.closed_.insert(active_set.closed_.end(), status.begin(), status.end());
+    active_set.kinks_ = status.size();
+    return active_set;
   }
-  Piece with_kinks_of(const Piece& other) const {
+  ActiveSet with_kinks_of(const ActiveSet& other) const {
     return with_kinks(std::span(other.closed_).subspan(other.contacts()));
   }
 
@@ -67,7 +67,7 @@ class Piece {
     return std::count(begin(), begin() + static_cast<std::ptrdiff_t>(contacts()), std::uint8_t{1});
   }
 
-  bool operator==(const Piece&) const = default;
+  bool operator==(const ActiveSet&) const = default;
 
  private:
   std::vector<std::uint8_t> closed_;
@@ -77,12 +77,12 @@ class Piece {
 
 /// Stores one point of an equilibrium path.
 struct State {
-  Vector x{};           ///< unknowns; Equations::size(piece) entries
-  double lambda = 0.0;  ///< load factor λ [-]
-  Piece piece{};        ///< active set; empty for a system without contacts
+  Vector x{};              ///< unknowns; Equations::size(active_set) entries
+  double lambda = 0.0;     ///< load factor λ [-]
+  ActiveSet active_set{};  ///< active set; empty for a system without contacts
 
   friend bool operator==(const State& a, const State& b) {
-    return a.piece == b.piece && a.lambda == b.lambda && a.x.size() == b.x.size() && a.x == b.x;
+    return a.active_set == b.active_set && a.lambda == b.lambda && a.x.size() == b.x.size() && a.x == b.x;
   }
 };
 
@@ -105,7 +105,7 @@ inline double apply(const Row& row, const Direction& direction) {
 
 /// Returns from + s · direction, with the active set of `from`.
 inline State moved(const State& from, const Direction& direction, double s) {
-  return {.x = from.x + s * direction.dx, .lambda = from.lambda + s * direction.dlambda, .piece = from.piece};
+  return {.x = from.x + s * direction.dx, .lambda = from.lambda + s * direction.dlambda, .active_set = from.active_set};
 }
 
 /// Returns to − from; both states have the same active set.

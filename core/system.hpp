@@ -15,14 +15,14 @@ namespace arcwall {
 ///     ← UnilateralSystem   gaps and contact forces, g ≥ 0 and p ≥ 0    six more for contacts
 ///     ← System             other unknowns beyond validity bounds       six more for remeshing
 ///
-/// A *layout* (Piece::layout()) defines the unknowns: for example a mesh that follows contact points. It is valid up to
-/// its *validity bounds*. These are guards after those of the contacts: positive while the layout is valid, and located
-/// as events. Another layout follows beyond each of them.
+/// A *layout* (ActiveSet::layout()) defines the unknowns: for example a mesh that follows contact points. It is valid
+/// up to its *validity bounds*. These are guards after those of the contacts: positive while the layout is valid, and
+/// located as events. Another layout follows beyond each of them.
 ///
 /// A system with one layout overrides nothing. Others override transitions and guard_count, and if needed:
-/// - admissible and with_inserted_contact, if contacts can arise between those of a piece;
+/// - admissible and with_inserted_contact, if contacts can arise between those of an active set;
 /// - with_mesh_for_landing, if contact positions determine the mesh;
-/// - passes_through, if obstacles have several sides; canonical_piece, if two layouts share equilibria.
+/// - passes_through, if obstacles have several sides; canonical_active_set, if two layouts share equilibria.
 ///
 /// The first point with a new layout is an equilibrium with all guards ≥ 0. It equals the last point with the old
 /// layout up to discretisation.
@@ -70,14 +70,14 @@ class System : public UnilateralSystem {
   virtual bool comes_behind_an_end(const State& /*from*/, const State& /*to*/) const { return false; }
 
   /// Returns the number of separate closed contacts; those of one contact zone count as one.
-  virtual Index separate_contacts(const Piece& piece) const {
+  virtual Index separate_contacts(const ActiveSet& active_set) const {
     Index closed = 0;
-    for (std::size_t k = 0; k < piece.contacts(); ++k) closed += piece[k] != 0 ? 1 : 0;
+    for (std::size_t k = 0; k < active_set.contacts(); ++k) closed += active_set[k] != 0 ? 1 : 0;
     return closed;
   }
 
   /// Returns the active set whose guards fit a state reached along another branch: for example a buckled contact zone.
-  virtual Piece canonical_piece(const State& state) const { return state.piece; }
+  virtual ActiveSet canonical_active_set(const State& state) const { return state.active_set; }
 };
 
 }  // namespace arcwall

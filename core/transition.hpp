@@ -25,27 +25,28 @@ struct Transition {
     gathers,      ///< a contact zone becomes a contact point; only the new layout locates it
     splits,       ///< a contact zone separates in its interior
     passes,       ///< a contact at the end of a member moves inside, or one that has come to it stays there
-    joins,        ///< the reverse, or a whole tail is touched; the place is known on the piece ahead alone
+    joins,        ///< the reverse, or a whole tail is touched; the place is known on the active set ahead alone
     remeshed,     ///< the same point with other unknowns
     continuum,    ///< a family of equilibria with the same load and energy
     unsupported,  ///< a contact configuration that is not modelled
   };
   Change change = Change::remeshed;
   std::string detail{};  ///< of the last two: what and why
-  /// That lies ahead, of which the piece ahead, where there is one, keeps one member.
+  /// That lies ahead, of which the active set ahead, where there is one, keeps one member.
   std::optional<Continuum> continuum{};
-  /// That change: in the piece behind; of `gathers`, of `joins`, and of `splits` without a quantity in the piece ahead.
+  /// That change: in the active set behind; of `gathers`, of `joins`, and of `splits` without a quantity in the active
+  /// set ahead.
   std::vector<Index> contacts{};
-  Deferred<State> guess{};  ///< on the piece ahead, near the first point there; may be made when it is tried
+  Deferred<State> guess{};  ///< on the active set ahead, near the first point there; may be made when it is tried
   Direction forward{};      ///< there, roughly; without entries: not known
-  /// Has `value` at the first point of the piece ahead and grows along it. Null: the first point lies in the plane
+  /// Has `value` at the first point of the active set ahead and grows along it. Null: the first point lies in the plane
   /// through the guess across `forward`.
   std::shared_ptr<const Observable> quantity{};
   double value = 0.0;
-  double least = 0.0;  ///< of the quantity: below that the piece is not looked at, which round-off may hide, or which
-                       ///< is tried otherwise
-  /// The equations of the piece behind are singular at the change: guards that should vanish together miss each other
-  /// by more than elsewhere, and neither signs of eigenvalues nor the tangent are sure there.
+  double least = 0.0;  ///< of the quantity: below that the active set is not looked at, which round-off may hide, or
+                       ///< which is tried otherwise
+  /// The equations of the active set behind are singular at the change: guards that should vanish together miss each
+  /// other by more than elsewhere, and neither signs of eigenvalues nor the tangent are sure there.
   bool from_singular = false;
 };
 

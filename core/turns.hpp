@@ -34,9 +34,9 @@ inline Vector turned_towards(const Eigen::Ref<const Vector>& other, Vector x, co
   return x;
 }
 
-/// The same of two states on one piece.
+/// The same of two states on one active set.
 inline State turned_towards(const Equations& system, const State& other, State state) {
-  state.x = turned_towards(other.x, std::move(state.x), system.turning_sets(state.piece));
+  state.x = turned_towards(other.x, std::move(state.x), system.turning_sets(state.active_set));
   return state;
 }
 

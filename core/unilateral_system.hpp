@@ -16,24 +16,24 @@ struct GuardsAlong {
 
 /// Adds unilateral constraints to the equations: the second of three levels of a system.
 ///
-/// A Piece has one entry a contact. Contact j is open (gap g_j ≥ 0, force 0) or closed (gap 0, force p_j ≥ 0, an
+/// A ActiveSet has one entry a contact. Contact j is open (gap g_j ≥ 0, force 0) or closed (gap 0, force p_j ≥ 0, an
 /// unknown). Its *guard* is the inequality constraint that must stay ≥ 0: the gap if open, the force if closed, scaled
 /// to order 1. The active set changes where a guard vanishes.
 ///
 /// A kink of a piecewise linear law is a compliant contact: its gap is the deformation left up to the kink, its force
 /// the deformation beyond it, its compliance 1. It has no multiplier.
 ///
-/// A system with contacts overrides open_piece, guards, guard_gradient, unit_force, multiplier_index, transfer and
+/// A system with contacts overrides open_active_set, guards, guard_gradient, unit_force, multiplier_index, transfer and
 /// multiplier_count. guard_gradient() is the derivative of guards(); guard() and guards_along() agree with both. A
 /// force enters F by the gradient of its gap, so K stays symmetric. transfer() there and back returns the same x if
 /// the omitted forces are zero.
 class UnilateralSystem : public Equations {
  public:
   /// Returns the active set with all contacts open and the initial layout.
-  virtual Piece open_piece() const { return {}; }
+  virtual ActiveSet open_active_set() const { return {}; }
 
   /// Returns the number of guards: those of the contacts, then the validity bounds (see System).
-  virtual Index guard_count(const Piece& piece) const { return static_cast<Index>(piece.size()); }
+  virtual Index guard_count(const ActiveSet& active_set) const { return static_cast<Index>(active_set.size()); }
 
   /// Returns all guards [-], guard_count() entries. A guard that cannot vanish is large.
   virtual Vector guards(const State&) const { return {}; }
@@ -48,7 +48,7 @@ class UnilateralSystem : public Equations {
 
   /// Returns all guards and their derivatives along a direction.
   virtual GuardsAlong guards_along(const State& state, const Direction& direction) const {
-    GuardsAlong along{.values = guards(state), .rates = Vector(guard_count(state.piece))};
+    GuardsAlong along{.values = guards(state), .rates = Vector(guard_count(state.active_set))};
     for (Index j = 0; j < along.rates.size(); ++j) along.rates[j] = apply(guard_gradient(state, j), direction);
     return along;
   }
@@ -56,43 +56,43 @@ class UnilateralSystem : public Equations {
   /// Returns the obstacle and the location of guard j, for messages. May be empty.
   virtual std::string watched_place(const State&, Index /*j*/) const { return {}; }
 
-  /// Returns −∂F/∂p_j of the open contact j, size(state.piece) entries. p_j is scaled as the guard of the closed
+  /// Returns −∂F/∂p_j of the open contact j, size(state.active_set) entries. p_j is scaled as the guard of the closed
   /// contact.
   virtual Vector unit_force(const State& state, Index) const { return Vector::Zero(state.x.size()); }
 
   /// Returns the compliance of a closed contact, in the scale of the guards: gap = −compliance · force. 0 if rigid.
-  virtual double compliance(const Piece&, Index) const { return 0.0; }
+  virtual double compliance(const ActiveSet&, Index) const { return 0.0; }
 
   /// Returns true if the contact is bilateral: closed for either sign of its force. Its guard never vanishes.
-  virtual bool is_two_sided(const Piece&, Index) const { return false; }
+  virtual bool is_two_sided(const ActiveSet&, Index) const { return false; }
 
   /// Returns the index in x of a contact force. Empty if the contact is open or shares the force of another contact.
-  virtual std::optional<Index> multiplier_index(const Piece&, Index) const { return std::nullopt; }
+  virtual std::optional<Index> multiplier_index(const ActiveSet&, Index) const { return std::nullopt; }
 
   /// Returns the value in x of a contact force whose guard is 1 [force].
   virtual double multiplier_scale() const { return 1.0; }
 
   /// Returns x for another active set of the same layout; new contact forces are zero. Also valid for directions.
-  virtual Vector transfer(const Vector& x, const Piece& /*from*/, const Piece& /*to*/) const { return x; }
+  virtual Vector transfer(const Vector& x, const ActiveSet& /*from*/, const ActiveSet& /*to*/) const { return x; }
 
   /// Returns true if the second variation vanishes in some directions, so stability is indeterminate. The eigenvalues
   /// then count the other directions.
-  virtual bool leaves_stability_open(const Piece&) const { return false; }
+  virtual bool leaves_stability_open(const ActiveSet&) const { return false; }
 
   /// Returns, for messages, the location where a solution is invalid: a closed contact beyond the end of its wall.
   /// Empty if the state is valid.
   virtual std::optional<std::string> invalid_place(const State&) const { return std::nullopt; }
 
   /// Returns the same state with another active set of the same layout.
-  State with_piece(const State& state, const Piece& piece) const {
-    return {.x = transfer(state.x, state.piece, piece), .lambda = state.lambda, .piece = piece};
+  State with_active_set(const State& state, const ActiveSet& active_set) const {
+    return {.x = transfer(state.x, state.active_set, active_set), .lambda = state.lambda, .active_set = active_set};
   }
 };
 
 /// Returns the contacts whose gap and force both vanish within `tolerance` [scale of guards].
-inline std::vector<Index> degenerate_contacts(const Vector& guards, const Piece& piece, double tolerance) {
+inline std::vector<Index> degenerate_contacts(const Vector& guards, const ActiveSet& active_set, double tolerance) {
   std::vector<Index> weak;
-  for (Index j = 0; j < static_cast<Index>(piece.size()); ++j)
+  for (Index j = 0; j < static_cast<Index>(active_set.size()); ++j)
     if (std::abs(guards[j]) <= tolerance) weak.push_back(j);
   return weak;
 }

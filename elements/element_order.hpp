@@ -23,10 +23,11 @@ struct ElementOrder {
   std::vector<Four> fours;              ///< classic beams side by side
   std::vector<ClassicBeamLanes> beams;  ///< what these are: fours that are alike share it
   std::vector<Index> others;            ///< elements one by one
-  std::vector<Index> driven;  ///< one by one, too: those that depend on λ, or whose held freedoms are not at 0
+  std::vector<Index>
+      driven;  ///< one by one, too: those that depend on λ, or whose held degrees of freedom are not at 0
 };
 
-/// `is_displaced(e)`: whether a support gives a freedom of element e another value than 0.
+/// `is_displaced(e)`: whether a support gives a degree of freedom of element e another value than 0.
 ElementOrder element_order(const ElementList& elements, const BlockAssembly& assembly,
                            const std::function<bool(Index)>& is_displaced);
 

@@ -14,13 +14,13 @@ class IncrementalStructure final : public System {
   /// Stress-free, as `structure` is; every element must have an updated form: see can_be_updated().
   explicit IncrementalStructure(const Structure& structure) : present_(structure.updated()) {}
 
-  Index size(const Piece& piece) const override { return present_->size(piece); }
+  Index size(const ActiveSet& active_set) const override { return present_->size(active_set); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override { present_->residual(state, F); }
   void linearize(const State& state, Linearization& out) const override { present_->linearize(state, out); }
   double energy(const State& state) const override { return present_->energy(state); }
-  Vector weights(const Piece& piece) const override { return present_->weights(piece); }
-  double squared_motion_by_lambda(const Piece& piece) const override {
-    return present_->squared_motion_by_lambda(piece);
+  Vector weights(const ActiveSet& active_set) const override { return present_->weights(active_set); }
+  double squared_motion_by_lambda(const ActiveSet& active_set) const override {
+    return present_->squared_motion_by_lambda(active_set);
   }
 
   /// The end of an increment: its configuration becomes the reference.
@@ -35,14 +35,13 @@ class IncrementalStructure final : public System {
 /// Support reaction by the stresses carried so far; at the end of the last increment alone.
 class IncrementalReaction final : public Observable {
  public:
-  IncrementalReaction(const IncrementalStructure& structure, Index freedom)
-      : structure_(structure), freedom_(freedom) {}
-  double value(const State& state) const override { return structure_.present().reaction(state, freedom_); }
-  Row gradient(const State& state) const override { return structure_.present().reaction_gradient(state, freedom_); }
+  IncrementalReaction(const IncrementalStructure& structure, Index dof) : structure_(structure), dof_(dof) {}
+  double value(const State& state) const override { return structure_.present().reaction(state, dof_); }
+  Row gradient(const State& state) const override { return structure_.present().reaction_gradient(state, dof_); }
 
  private:
   const IncrementalStructure& structure_;
-  Index freedom_;
+  Index dof_;
 };
 
 }  // namespace arcwall

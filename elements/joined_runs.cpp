@@ -70,7 +70,7 @@ bool SlidingStructure::passes(const Run& a, const Run& b, const std::vector<bool
                               const CarriesForceAlone& carries_force_alone) const {
   const End &end = a.ends[1], &next = b.ends[0];
   const Index node = node_of(end);
-  if (with_terms[static_cast<std::size_t>(node)] && !carries_force_alone(node, end.freedom[2])) return false;
+  if (with_terms[static_cast<std::size_t>(node)] && !carries_force_alone(node, end.dof[2])) return false;
   const bool is_alike = a.theory == b.theory && a.order == b.order && a.section.E == b.section.E &&
                         a.section.A == b.section.A && a.section.I == b.section.I &&
                         a.section.height == b.section.height && a.load == b.load &&
@@ -150,7 +150,7 @@ class SlidingStructure::RunJoiner {
 
   std::vector<Run>& runs() const { return structure_.runs_; }
   static const End& end_of(const Run& run, bool last) { return run.ends[last ? 1 : 0]; }
-  static Index joint_of(const Run& run, bool last) { return end_of(run, last).freedom[1]; }
+  static Index joint_of(const Run& run, bool last) { return end_of(run, last).dof[1]; }
 
   // The end of another run that alone is at the joint where an end is.
   std::optional<RunEnd> met_by(const RunEnd& end) const {
@@ -204,7 +204,7 @@ class SlidingStructure::RunJoiner {
   bool may_meet(const Run& a, bool a_last, const Run& b, bool b_last) const {
     const auto has_curve = [](const Run& run) { return run.perfect && curvature_of(*run.axis).has_value(); };
     const auto member = [](const Run& run, bool last) { return (last ? run.parts.back() : run.parts.front()).member; };
-    if (end_of(a, a_last).freedom != end_of(b, b_last).freedom || !has_curve(a) || !has_curve(b)) return false;
+    if (end_of(a, a_last).dof != end_of(b, b_last).dof || !has_curve(a) || !has_curve(b)) return false;
     return !alike_ || alike_(member(a, a_last), member(b, b_last));
   }
 
@@ -221,7 +221,7 @@ void SlidingStructure::join_runs(const std::vector<bool>& with_terms, const Carr
   RunJoiner(*this, with_terms, carries_force_alone, alike).join_all();
   for (Index strand = 0; strand < strands(); ++strand)
     for (const bool last : {false, true})
-      ends_at_joint_[at(strand).ends[last ? 1 : 0].freedom[1]].push_back({.strand = strand, .last = last});
+      ends_at_joint_[at(strand).ends[last ? 1 : 0].dof[1]].push_back({.strand = strand, .last = last});
 }
 
 }  // namespace arcwall

@@ -29,14 +29,14 @@ KinkedSprings::KinkedSprings(const System& inner, const std::vector<Spring>& spr
 }
 
 // Null of a guard of the inner system.
-const KinkedSprings::Kink* KinkedSprings::kink(const Piece& piece, Index j) const {
-  const Index k = j - static_cast<Index>(piece.contacts());
+const KinkedSprings::Kink* KinkedSprings::kink(const ActiveSet& active_set, Index j) const {
+  const Index k = j - static_cast<Index>(active_set.contacts());
   return k >= 0 && k < kink_count() ? &kinks_[static_cast<std::size_t>(k)] : nullptr;
 }
 
 // The inner system's number of a guard: kinks stand behind its contacts and before its validity bounds.
-Index KinkedSprings::inner_number(const Piece& piece, Index j) const {
-  return j < static_cast<Index>(piece.contacts()) ? j : j - kink_count();
+Index KinkedSprings::inner_number(const ActiveSet& active_set, Index j) const {
+  return j < static_cast<Index>(active_set.contacts()) ? j : j - kink_count();
 }
 
 double KinkedSprings::stretch(const Kink& kink, const State& state) const {
@@ -54,35 +54,35 @@ Row KinkedSprings::stretch_gradient(const Kink& kink, const State& state) const 
   return row;
 }
 
-// δ: whether the piece has passed the kink's stretch, less whether the stretch has.
+// δ: whether the active set has passed the kink's stretch, less whether the stretch has.
 double KinkedSprings::misplaced(const Kink& kink, bool beyond, double stretch) {
   const bool passed = beyond == (kink.sense > 0.0);
   return (passed ? 1.0 : 0.0) - (stretch >= kink.stretch ? 1.0 : 0.0);
 }
 
-// visit(kink, stretch, δ) of each kink on whose wrong side, by the piece, the stretch is.
+// visit(kink, stretch, δ) of each kink on whose wrong side, by the active set, the stretch is.
 template <class Visit>
 void KinkedSprings::for_each_misplaced(const State& state, const Visit& visit) const {
-  const std::size_t contacts = state.piece.contacts();
+  const std::size_t contacts = state.active_set.contacts();
   for (std::size_t k = 0; k < kinks_.size(); ++k) {
     const double u = stretch(kinks_[k], state);
-    const double off = misplaced(kinks_[k], state.piece[contacts + k] != 0, u);
+    const double off = misplaced(kinks_[k], state.active_set[contacts + k] != 0, u);
     if (off != 0.0) visit(kinks_[k], u, off);
   }
 }
 
 State KinkedSprings::with_kinks(State state) const {
-  if (state.piece.kinks() == kinks_.size()) return state;
+  if (state.active_set.kinks() == kinks_.size()) return state;
   std::vector<std::uint8_t> status;
   for (const Kink& kink : kinks_)
     status.push_back(kink.sense * (stretch(kink, state) - kink.stretch) > 0.0 ? std::uint8_t{1} : std::uint8_t{0});
-  state.piece = state.piece.with_kinks(status);
+  state.active_set = state.active_set.with_kinks(status);
   return state;
 }
 
 Row KinkedSprings::force_gradient_off(std::size_t spring, const State& state) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-  if (state.piece.kinks() == 0) return row;
+  if (state.active_set.kinks() == 0) return row;
   for_each_misplaced(state, [&](const Kink& kink, double, double off) {
     if (kink.spring != spring) return;
     const Row gradient = stretch_gradient(kink, state);
@@ -134,18 +134,18 @@ double KinkedSprings::energy(const State& state) const {
   return energy;
 }
 
-Piece KinkedSprings::open_piece() const {
-  return inner_.open_piece().with_kinks(std::vector<std::uint8_t>(kinks_.size(), 0));
+ActiveSet KinkedSprings::open_active_set() const {
+  return inner_.open_active_set().with_kinks(std::vector<std::uint8_t>(kinks_.size(), 0));
 }
 
 double KinkedSprings::kink_guard(const Kink& kink, const State& state, std::size_t j) const {
   const double ahead = kink.sense * (kink.stretch - stretch(kink, state)) / kink.width;
-  return state.piece[j] != 0 ? -ahead : ahead;
+  return state.active_set[j] != 0 ? -ahead : ahead;
 }
 
 Vector KinkedSprings::guards(const State& state) const {
   const Vector inner = inner_.guards(state);
-  const auto contacts = static_cast<Index>(state.piece.contacts()), kinks = kink_count();
+  const auto contacts = static_cast<Index>(state.active_set.contacts()), kinks = kink_count();
   Vector guards(inner.size() + kinks);
   guards << inner.head(contacts), Vector::Zero(kinks), inner.tail(inner.size() - contacts);
   for (Index k = 0; k < kinks; ++k)
@@ -155,24 +155,24 @@ Vector KinkedSprings::guards(const State& state) const {
 }
 
 double KinkedSprings::guard(const State& state, Index j) const {
-  if (const Kink* const at = kink(state.piece, j)) return kink_guard(*at, state, static_cast<std::size_t>(j));
-  return inner_.guard(state, inner_number(state.piece, j));
+  if (const Kink* const at = kink(state.active_set, j)) return kink_guard(*at, state, static_cast<std::size_t>(j));
+  return inner_.guard(state, inner_number(state.active_set, j));
 }
 
 Row KinkedSprings::guard_gradient(const State& state, Index j) const {
-  const Kink* const at = kink(state.piece, j);
-  if (at == nullptr) return inner_.guard_gradient(state, inner_number(state.piece, j));
+  const Kink* const at = kink(state.active_set, j);
+  if (at == nullptr) return inner_.guard_gradient(state, inner_number(state.active_set, j));
   Row row = stretch_gradient(*at, state);
-  const double factor = (state.piece[static_cast<std::size_t>(j)] != 0 ? at->sense : -at->sense) / at->width;
+  const double factor = (state.active_set[static_cast<std::size_t>(j)] != 0 ? at->sense : -at->sense) / at->width;
   row.dx *= factor;
   row.dlambda *= factor;
   return row;
 }
 
 GuardsAlong KinkedSprings::guards_along(const State& state, const Direction& direction) const {
-  const State without_kinks{.x = state.x, .lambda = state.lambda, .piece = state.piece.with_kinks({})};
+  const State without_kinks{.x = state.x, .lambda = state.lambda, .active_set = state.active_set.with_kinks({})};
   const GuardsAlong inner = inner_.guards_along(without_kinks, direction);
-  const auto contacts = static_cast<Index>(state.piece.contacts()), kinks = kink_count();
+  const auto contacts = static_cast<Index>(state.active_set.contacts()), kinks = kink_count();
   GuardsAlong along{.values = guards(state), .rates = Vector(inner.rates.size() + kinks)};
   along.rates << inner.rates.head(contacts), Vector::Zero(kinks), inner.rates.tail(inner.rates.size() - contacts);
   for (Index j = contacts; j < contacts + kinks; ++j) along.rates[j] = apply(guard_gradient(state, j), direction);
@@ -180,35 +180,35 @@ GuardsAlong KinkedSprings::guards_along(const State& state, const Direction& dir
 }
 
 std::string KinkedSprings::watched_place(const State& state, Index j) const {
-  if (kink(state.piece, j) != nullptr) return "a kink of a spring's law";
-  return inner_.watched_place(state, inner_number(state.piece, j));
+  if (kink(state.active_set, j) != nullptr) return "a kink of a spring's law";
+  return inner_.watched_place(state, inner_number(state.active_set, j));
 }
 
 // Beyond the kink the law gives Δ w p more than straight on, in either sense.
 Vector KinkedSprings::unit_force(const State& state, Index j) const {
-  const Kink* const at = kink(state.piece, j);
-  if (at == nullptr) return inner_.unit_force(state, inner_number(state.piece, j));
+  const Kink* const at = kink(state.active_set, j);
+  if (at == nullptr) return inner_.unit_force(state, inner_number(state.active_set, j));
   return -at->jump * at->width * stretch_gradient(*at, state).dx;
 }
 
-double KinkedSprings::compliance(const Piece& piece, Index j) const {
-  return kink(piece, j) != nullptr ? 1.0 : inner_.compliance(piece, inner_number(piece, j));
+double KinkedSprings::compliance(const ActiveSet& active_set, Index j) const {
+  return kink(active_set, j) != nullptr ? 1.0 : inner_.compliance(active_set, inner_number(active_set, j));
 }
 
-bool KinkedSprings::is_two_sided(const Piece& piece, Index j) const {
-  return kink(piece, j) == nullptr && inner_.is_two_sided(piece, inner_number(piece, j));
+bool KinkedSprings::is_two_sided(const ActiveSet& active_set, Index j) const {
+  return kink(active_set, j) == nullptr && inner_.is_two_sided(active_set, inner_number(active_set, j));
 }
 
-std::optional<Index> KinkedSprings::multiplier_index(const Piece& piece, Index j) const {
-  if (kink(piece, j) != nullptr) return std::nullopt;
-  return inner_.multiplier_index(piece, inner_number(piece, j));
+std::optional<Index> KinkedSprings::multiplier_index(const ActiveSet& active_set, Index j) const {
+  if (kink(active_set, j) != nullptr) return std::nullopt;
+  return inner_.multiplier_index(active_set, inner_number(active_set, j));
 }
 
 // A change of the mesh keeps to the pieces of the laws.
-Transition KinkedSprings::keeping_kinks(Transition transition, const Piece& from) const {
+Transition KinkedSprings::keeping_kinks(Transition transition, const ActiveSet& from) const {
   transition.guess = Deferred<State>([inner = std::move(transition.guess), from] {
     State guess = inner.get();
-    guess.piece = guess.piece.with_kinks_of(from);
+    guess.active_set = guess.active_set.with_kinks_of(from);
     return guess;
   });
   return transition;
@@ -216,22 +216,22 @@ Transition KinkedSprings::keeping_kinks(Transition transition, const Piece& from
 
 std::vector<Transition> KinkedSprings::transitions(const State& state, const Direction& forward, Index bound,
                                                    double tolerance) const {
-  std::vector<Transition> found = inner_.transitions(state, forward, inner_number(state.piece, bound), tolerance);
-  for (Transition& transition : found) transition = keeping_kinks(std::move(transition), state.piece);
+  std::vector<Transition> found = inner_.transitions(state, forward, inner_number(state.active_set, bound), tolerance);
+  for (Transition& transition : found) transition = keeping_kinks(std::move(transition), state.active_set);
   return found;
 }
 
 std::optional<Transition> KinkedSprings::with_inserted_contact(const State& from, const Direction& forward,
                                                                const State& to, double margin) const {
   auto found = inner_.with_inserted_contact(from, forward, to, margin);
-  return found ? std::optional(keeping_kinks(std::move(*found), from.piece)) : std::nullopt;
+  return found ? std::optional(keeping_kinks(std::move(*found), from.active_set)) : std::nullopt;
 }
 
 std::optional<Transition> KinkedSprings::with_mesh_for_landing(const State& from, const Direction& forward,
                                                                const State& to, Index guard) const {
-  if (kink(from.piece, guard) != nullptr) return std::nullopt;
-  auto found = inner_.with_mesh_for_landing(from, forward, to, inner_number(from.piece, guard));
-  return found ? std::optional(keeping_kinks(std::move(*found), from.piece)) : std::nullopt;
+  if (kink(from.active_set, guard) != nullptr) return std::nullopt;
+  auto found = inner_.with_mesh_for_landing(from, forward, to, inner_number(from.active_set, guard));
+  return found ? std::optional(keeping_kinks(std::move(*found), from.active_set)) : std::nullopt;
 }
 
 }  // namespace arcwall

@@ -15,13 +15,13 @@ namespace arcwall {
 
 /// A system with springs whose laws are straight pieces (SpringLaw::Interpolation::linear), on each of which the
 /// equations are smooth. The inner system takes the stiffness of a law from the stretch alone, which at a kink does not
-/// say which piece counts. This one takes it from the piece of the state (Piece::kinks).
+/// say which active set counts. This one takes it from the active set of the state (ActiveSet::kinks).
 ///
 /// With s = 1 of a kink at stretch u_k ≥ 0 and s = −1 of one below 0, the status of a kink is 0 up to it, seen from
-/// rest, and 1 beyond it. Its guard is s (u_k − u)/w or s (u − u_k)/w, w the width of the law. On a piece that is left
-/// a law goes on straight:
+/// rest, and 1 beyond it. Its guard is s (u_k − u)/w or s (u − u_k)/w, w the width of the law. On an active set that is
+/// left a law goes on straight:
 ///
-///     F = F_inner + Σ δ_k Δ_k (u − u_k) ∇u        δ_k = [u_k is passed, by the piece] − [u ≥ u_k]
+///     F = F_inner + Σ δ_k Δ_k (u − u_k) ∇u        δ_k = [u_k is passed, by the active set] − [u ≥ u_k]
 ///
 /// where Δ_k is the jump of stiffness. δ_k (u − u_k) vanishes wherever the guards hold.
 class KinkedSprings final : public System {
@@ -34,26 +34,30 @@ class KinkedSprings final : public System {
   /// `inner` must outlive this; it has those springs, and entries of K for them. Laws without kinks change nothing.
   KinkedSprings(const System& inner, const std::vector<Spring>& springs);
 
-  /// The state with a status of each kink: that of its piece, where this has any, else by the stretch.
+  /// The state with a status of each kink: that of its active set, where this has any, else by the stretch.
   State with_kinks(State state) const;
 
   /// What the force of a spring, of those given, changes in its derivative by the unknowns and λ at a kink, where the
-  /// inner system has taken the other piece.
+  /// inner system has taken the other active set.
   Row force_gradient_off(std::size_t spring, const State& state) const;
 
-  Index size(const Piece& piece) const override { return inner_.size(piece); }
+  Index size(const ActiveSet& active_set) const override { return inner_.size(active_set); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
-  Vector weights(const Piece& piece) const override { return inner_.weights(piece); }
-  std::vector<Index> turning_sets(const Piece& piece) const override { return inner_.turning_sets(piece); }
-  double squared_motion_by_lambda(const Piece& piece) const override { return inner_.squared_motion_by_lambda(piece); }
-  Index multiplier_count(const Piece& piece) const override { return inner_.multiplier_count(piece); }
+  Vector weights(const ActiveSet& active_set) const override { return inner_.weights(active_set); }
+  std::vector<Index> turning_sets(const ActiveSet& active_set) const override {
+    return inner_.turning_sets(active_set);
+  }
+  double squared_motion_by_lambda(const ActiveSet& active_set) const override {
+    return inner_.squared_motion_by_lambda(active_set);
+  }
+  Index multiplier_count(const ActiveSet& active_set) const override { return inner_.multiplier_count(active_set); }
   bool has_stability() const override { return inner_.has_stability(); }
 
-  Piece open_piece() const override;
-  Index guard_count(const Piece& piece) const override {
-    return inner_.guard_count(piece.with_kinks({})) + kink_count();
+  ActiveSet open_active_set() const override;
+  Index guard_count(const ActiveSet& active_set) const override {
+    return inner_.guard_count(active_set.with_kinks({})) + kink_count();
   }
   Vector guards(const State& state) const override;
   double guard(const State& state, Index j) const override;
@@ -61,14 +65,16 @@ class KinkedSprings final : public System {
   GuardsAlong guards_along(const State& state, const Direction& direction) const override;
   std::string watched_place(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
-  double compliance(const Piece& piece, Index j) const override;
-  bool is_two_sided(const Piece& piece, Index j) const override;
-  std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
+  double compliance(const ActiveSet& active_set, Index j) const override;
+  bool is_two_sided(const ActiveSet& active_set, Index j) const override;
+  std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const override;
   double multiplier_scale() const override { return inner_.multiplier_scale(); }
-  Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override {
+  Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override {
     return inner_.transfer(x, from, to);
   }
-  bool leaves_stability_open(const Piece& piece) const override { return inner_.leaves_stability_open(piece); }
+  bool leaves_stability_open(const ActiveSet& active_set) const override {
+    return inner_.leaves_stability_open(active_set);
+  }
   std::optional<std::string> invalid_place(const State& state) const override { return inner_.invalid_place(state); }
 
   std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,
@@ -86,8 +92,8 @@ class KinkedSprings final : public System {
   bool comes_behind_an_end(const State& from, const State& to) const override {
     return inner_.comes_behind_an_end(from, to);
   }
-  Piece canonical_piece(const State& state) const override {
-    return inner_.canonical_piece(state).with_kinks_of(state.piece);
+  ActiveSet canonical_active_set(const State& state) const override {
+    return inner_.canonical_active_set(state).with_kinks_of(state.active_set);
   }
 
  private:
@@ -99,23 +105,23 @@ class KinkedSprings final : public System {
   };
 
   Index kink_count() const { return static_cast<Index>(kinks_.size()); }
-  const Kink* kink(const Piece& piece, Index j) const;
-  Index inner_number(const Piece& piece, Index j) const;
+  const Kink* kink(const ActiveSet& active_set, Index j) const;
+  Index inner_number(const ActiveSet& active_set, Index j) const;
   double stretch(const Kink& kink, const State& state) const;
   Row stretch_gradient(const Kink& kink, const State& state) const;
   static double misplaced(const Kink& kink, bool beyond, double stretch);
   template <class Visit>
   void for_each_misplaced(const State& state, const Visit& visit) const;
   double kink_guard(const Kink& kink, const State& state, std::size_t j) const;
-  Transition keeping_kinks(Transition transition, const Piece& from) const;
+  Transition keeping_kinks(Transition transition, const ActiveSet& from) const;
 
   const System& inner_;
   std::vector<Spring> springs_;
   std::vector<Kink> kinks_;
 };
 
-/// A force that springs with kinks are part of: as `inner` says, but at a kink its derivative is that on the piece of
-/// the state.
+/// A force that springs with kinks are part of: as `inner` says, but at a kink its derivative is that on the active set
+/// of the state.
 class KinkedForce final : public Observable {
  public:
   struct Part {

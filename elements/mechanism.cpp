@@ -33,7 +33,7 @@ class DisjointSets {
 // A node of a beam element: where its motion is seen by others.
 struct ElementEnd {
   Index node;
-  Index rotation;  // freedom
+  Index rotation;  // degree of freedom
 };
 
 // Beam elements that move as one, by the motion of their centre and ωℓ: point r moves by u + ω e_y × (r − centre).
@@ -117,13 +117,13 @@ struct Motions {
   }
 
   // Of a displacement or a rotation.
-  std::vector<std::pair<Eigen::Index, double>> of_freedom(Index freedom) const {
-    const Structure::Meaning meaning = structure.meaning_of_freedom(freedom);
-    if (meaning.freedom == Freedom::x) return of_node(meaning.node, Vec2::UnitX());
-    if (meaning.freedom == Freedom::z) return of_node(meaning.node, Vec2::UnitY());
+  std::vector<std::pair<Eigen::Index, double>> of_dof(Index dof) const {
+    const Structure::Meaning meaning = structure.meaning_of_dof(dof);
+    if (meaning.dof == Dof::x) return of_node(meaning.node, Vec2::UnitX());
+    if (meaning.dof == Dof::z) return of_node(meaning.node, Vec2::UnitY());
     for (std::size_t b = 0; b < bodies.size(); ++b)
       for (const ElementEnd& end : bodies[b].ends)
-        if (end.rotation == freedom) return {{3 * static_cast<Eigen::Index>(b) + 2, 1.0 / bodies[b].size}};
+        if (end.rotation == dof) return {{3 * static_cast<Eigen::Index>(b) + 2, 1.0 / bodies[b].size}};
     return {};
   }
 };
@@ -177,14 +177,14 @@ class Conditions {
   void hold_supports() {
     const Structure& structure = motions_.structure;
     std::set<Index> seen;
-    const auto holds = [&](Index freedom) {
-      const bool grounded = !structure.unknown(freedom) || structure.nodal_terms().ground_stiffness(freedom) != 0.0;
-      return grounded && seen.insert(freedom).second;
+    const auto holds = [&](Index dof) {
+      const bool grounded = !structure.unknown(dof) || structure.nodal_terms().ground_stiffness(dof) != 0.0;
+      return grounded && seen.insert(dof).second;
     };
     for (const MemberMesh& mesh : structure.members())
       for (const Index node : mesh.nodes) {
-        if (holds(structure.freedom(node, Freedom::x))) add(motions_.of_node(node, Vec2::UnitX()));
-        if (holds(structure.freedom(node, Freedom::z))) add(motions_.of_node(node, Vec2::UnitY()));
+        if (holds(structure.dof(node, Dof::x))) add(motions_.of_node(node, Vec2::UnitX()));
+        if (holds(structure.dof(node, Dof::z))) add(motions_.of_node(node, Vec2::UnitY()));
       }
     for (std::size_t b = 0; b < motions_.bodies.size(); ++b)
       for (const ElementEnd& end : motions_.bodies[b].ends)
@@ -193,7 +193,7 @@ class Conditions {
 
   void join_by_springs() {
     for (const NodalTerms::Spring& spring : motions_.structure.nodal_terms().springs())
-      add(motions_.of_freedom(spring.first), motions_.of_freedom(spring.second));
+      add(motions_.of_dof(spring.first), motions_.of_dof(spring.second));
   }
 
   const Motions& motions_;
@@ -236,19 +236,19 @@ std::optional<Mechanism> find_mechanism(const Structure& structure) {
 
   Mechanism greatest{};
   double motion = -1.0;
-  const auto compare = [&](Index node, Freedom freedom, double here) {
+  const auto compare = [&](Index node, Dof dof, double here) {
     if (std::abs(here) <= motion * (1.0 + 1e-9)) return;
     motion = std::abs(here);
-    greatest = {.node = node, .freedom = freedom};
+    greatest = {.node = node, .dof = dof};
   };
   for (const MemberMesh& mesh : structure.members())
     for (const Index node : mesh.nodes) {
-      compare(node, Freedom::x, moved(motions, q, node, Vec2::UnitX()));
-      compare(node, Freedom::z, moved(motions, q, node, Vec2::UnitY()));
+      compare(node, Dof::x, moved(motions, q, node, Vec2::UnitX()));
+      compare(node, Dof::z, moved(motions, q, node, Vec2::UnitY()));
     }
   for (std::size_t b = 0; b < motions.bodies.size(); ++b) {
     const double turns = q[3 * static_cast<Eigen::Index>(b) + 2] / motions.bodies[b].size;
-    compare(motions.bodies[b].ends.front().node, Freedom::rotation, turns * 0.5 * structure.length_scale());
+    compare(motions.bodies[b].ends.front().node, Dof::rotation, turns * 0.5 * structure.length_scale());
   }
   return greatest;
 }
@@ -260,10 +260,10 @@ std::vector<NodeDirection> free_directions(const Structure& structure, const std
   if (motions.count == 0) return free;
   const std::vector<Vector> null = null_vectors(Conditions(motions).matrix(), motions.count);
   for (const Index node : nodes)
-    for (const Freedom freedom : {Freedom::x, Freedom::z}) {
-      const Vec2 direction = freedom == Freedom::x ? Vec2(Vec2::UnitX()) : Vec2(Vec2::UnitY());
+    for (const Dof dof : {Dof::x, Dof::z}) {
+      const Vec2 direction = dof == Dof::x ? Vec2(Vec2::UnitX()) : Vec2(Vec2::UnitY());
       const auto moves = [&](const Vector& q) { return std::abs(moved(motions, q, node, direction)) > least; };
-      if (std::any_of(null.begin(), null.end(), moves)) free.push_back({.node = node, .freedom = freedom});
+      if (std::any_of(null.begin(), null.end(), moves)) free.push_back({.node = node, .dof = dof});
     }
   return free;
 }

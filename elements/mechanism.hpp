@@ -10,7 +10,7 @@ namespace arcwall {
 /// A motion of a structure without strain.
 struct Mechanism {
   Index node;
-  Freedom freedom;  ///< where the motion is greatest, rotations taken over half the structure's length scale
+  Dof dof;  ///< where the motion is greatest, rotations taken over half the structure's length scale
 };
 
 /// Whether a structure can begin to move from its stress-free state without strain; one such motion if it can.
@@ -24,7 +24,7 @@ std::optional<Mechanism> find_mechanism(const Structure& structure);
 /// A node and x or z.
 struct NodeDirection {
   Index node;
-  Freedom freedom;
+  Dof dof;
 };
 
 /// The directions of those nodes in which some motion without strain moves them.

@@ -24,14 +24,14 @@ double offset_of(const MemberMesh& mesh, MemberObservable::Component component) 
 
 MemberPoint::MemberPoint(const Structure& structure, const MemberSection& section, double offset)
     : structure_(structure), node_(section.node), section_(section.kinematics()), offset_(offset) {
-  const auto coordinate = [&](Index freedom) -> Coordinate {
-    const auto unknown = structure.unknown(freedom);
-    if (!unknown) return {.column = std::nullopt, .rate = structure.held_rate(freedom)};
+  const auto coordinate = [&](Index dof) -> Coordinate {
+    const auto unknown = structure.unknown(dof);
+    if (!unknown) return {.column = std::nullopt, .rate = structure.held_rate(dof)};
     unknowns_.push_back(*unknown);
     return {.column = static_cast<Index>(unknowns_.size()) - 1};
   };
-  x_ = coordinate(structure.freedom(node_, Freedom::x));
-  z_ = coordinate(structure.freedom(node_, Freedom::z));
+  x_ = coordinate(structure.dof(node_, Dof::x));
+  z_ = coordinate(structure.dof(node_, Dof::z));
   if (offset_ == 0.0) return;
   assert(section.rotation);
   rotation_ = section.rotation;
@@ -43,7 +43,7 @@ MemberPoint::MemberPoint(const Structure& structure, const MemberSection& sectio
 }
 
 EssenburgNode::Vectors MemberPoint::vectors(const State& state) const {
-  const auto value = [&](Index freedom) { return structure_.value(state, freedom); };
+  const auto value = [&](Index dof) { return structure_.value(state, dof); };
   return section_.vectors(value(*rotation_), thickness_ ? value(thickness_->e) : 0.0,
                           thickness_ ? value(thickness_->xi) : 0.0);
 }
@@ -142,7 +142,7 @@ double MemberObservable::value(const State& state) const {
 }
 
 Row MemberObservable::gradient(const State& state) const {
-  if (component_ == Component::rotation) return FreedomObservable(structure_, rotation_.value()).gradient(state);
+  if (component_ == Component::rotation) return DofObservable(structure_, rotation_.value()).gradient(state);
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   PointKinematics kinematics;
   point_.kinematics(state, kinematics);
@@ -153,10 +153,10 @@ Row MemberObservable::gradient(const State& state) const {
   return row;
 }
 
-Row FreedomObservable::gradient(const State& state) const {
+Row DofObservable::gradient(const State& state) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-  if (const auto unknown = structure_.unknown(freedom_)) row.dx[*unknown] = 1.0;
-  row.dlambda = structure_.held_rate(freedom_);
+  if (const auto unknown = structure_.unknown(dof_)) row.dx[*unknown] = 1.0;
+  row.dlambda = structure_.held_rate(dof_);
   return row;
 }
 

@@ -29,8 +29,8 @@ class MemberPoint final : public TrackedPoint {
   EssenburgNode section_;
   double offset_;  // [length]
   std::vector<Index> unknowns_;
-  std::optional<Index> rotation_;               // freedom
-  std::optional<ThicknessFreedoms> thickness_;  // likewise
+  std::optional<Index> rotation_;           // degree of freedom
+  std::optional<ThicknessDofs> thickness_;  // likewise
   // A coordinate of the point: its column in the derivatives, or, where a support holds it, its rate by λ.
   struct Coordinate {
     std::optional<Index> column{};
@@ -59,28 +59,28 @@ class MemberObservable final : public Observable {
   double origin_ = 0.0;  // what is subtracted
 };
 
-/// The displacement or rotation of one freedom.
-class FreedomObservable final : public Observable {
+/// The displacement or rotation of one degree of freedom.
+class DofObservable final : public Observable {
  public:
-  FreedomObservable(const Structure& structure, Index freedom) : structure_(structure), freedom_(freedom) {}
-  double value(const State& state) const override { return structure_.value(state, freedom_); }
+  DofObservable(const Structure& structure, Index dof) : structure_(structure), dof_(dof) {}
+  double value(const State& state) const override { return structure_.value(state, dof_); }
   Row gradient(const State& state) const override;
 
  private:
   const Structure& structure_;
-  Index freedom_;
+  Index dof_;
 };
 
-/// What a support does to the structure in one freedom.
+/// What a support does to the structure in one degree of freedom.
 class ReactionObservable final : public Observable {
  public:
-  ReactionObservable(const Structure& structure, Index freedom) : structure_(structure), freedom_(freedom) {}
-  double value(const State& state) const override { return structure_.reaction(state, freedom_); }
-  Row gradient(const State& state) const override { return structure_.reaction_gradient(state, freedom_); }
+  ReactionObservable(const Structure& structure, Index dof) : structure_(structure), dof_(dof) {}
+  double value(const State& state) const override { return structure_.reaction(state, dof_); }
+  Row gradient(const State& state) const override { return structure_.reaction_gradient(state, dof_); }
 
  private:
   const Structure& structure_;
-  Index freedom_;
+  Index dof_;
 };
 
 }  // namespace arcwall

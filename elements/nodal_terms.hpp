@@ -14,28 +14,29 @@
 
 namespace arcwall {
 
-/// What acts on single freedoms of a structure, however it is meshed: point loads p, supports that give a freedom the
-/// value ū, and stiffnesses k_i to ground and k_ij between two freedoms. u is the displacement or rotation from the
-/// stress-free state, f(u, λ) the force of the elements on it.
+/// What acts on single degrees of freedom of a structure, however it is meshed: point loads p, supports that give a
+/// degree of freedom the value ū, and stiffnesses k_i to ground and k_ij between two degrees of freedom. u is the
+/// displacement or rotation from the stress-free state, f(u, λ) the force of the elements on it.
 ///
-///     F_i = f_i(u, λ) + k_i u_i + Σ_j k_ij (u_i − u_j) − p_i(λ)    of a freedom that is free, an unknown of the mesh
-///     u_i = ū_i(λ)                                                 of one that is held; its support exerts F_i
-///     Π   = U(u, λ) + Σ ½ k_i u_i² + Σ ½ k_ij (u_i − u_j)² − Σ p_i u_i                                 over both
+///     F_i = f_i(u, λ) + k_i u_i + Σ_j k_ij (u_i − u_j) − p_i(λ)    of a degree of freedom that is free, an unknown of
+///     the mesh u_i = ū_i(λ)                                                 of one that is held; its support exerts
+///     F_i Π   = U(u, λ) + Σ ½ k_i u_i² + Σ ½ k_ij (u_i − u_j)² − Σ p_i u_i                                 over both
 ///
-/// The mesh is known by two functions of a freedom: `unknown_of` gives its unknown, −1 if it is held, and
+/// The mesh is known by two functions of a degree of freedom: `unknown_of` gives its unknown, −1 if it is held, and
 /// `displacement_of` gives u.
 class NodalTerms {
  public:
-  /// Adds a force or moment on the freedom.
-  void add_load(Index freedom, const Driven& load) { entry(loads_, freedom) += load; }
+  /// Adds a force or moment on the degree of freedom.
+  void add_load(Index dof, const Driven& load) { entry(loads_, dof) += load; }
 
-  /// Lets a support give the freedom this value: a displacement [length] or a rotation [rad].
-  void hold(Index freedom, const Driven& value) { entry(supports_, freedom) = value; }
+  /// Lets a support give the degree of freedom this value: a displacement [length] or a rotation [rad].
+  void hold(Index dof, const Driven& value) { entry(supports_, dof) = value; }
 
-  /// Adds a spring from the freedom to the ground, of stiffness k [force/length], for a rotation [force·length].
-  void add_ground_stiffness(Index freedom, double k) { entry(ground_, freedom) += k; }
+  /// Adds a spring from the degree of freedom to the ground, of stiffness k [force/length], for a rotation
+  /// [force·length].
+  void add_ground_stiffness(Index dof, double k) { entry(ground_, dof) += k; }
 
-  /// Adds a spring between two freedoms, likewise. The pattern of the structure must have its entry.
+  /// Adds a spring between two degrees of freedom, likewise. The pattern of the structure must have its entry.
   void add_spring(Index first, Index second, double k) {
     springs_.push_back({.first = first, .second = second, .stiffness = k});
   }
@@ -47,8 +48,8 @@ class NodalTerms {
     Index second;
     std::shared_ptr<const SpringLaw> law;
 
-    bool joins(Index freedom) const { return freedom == second || (first && freedom == *first); }
-    double sign(Index freedom) const { return freedom == second ? 1.0 : -1.0; }
+    bool joins(Index dof) const { return dof == second || (first && dof == *first); }
+    double sign(Index dof) const { return dof == second ? 1.0 : -1.0; }
   };
   void add_spring(const LawSpring& spring) { law_springs_.push_back(spring); }
   const std::vector<LawSpring>& law_springs() const { return law_springs_; }
@@ -58,15 +59,15 @@ class NodalTerms {
   /// origin, leave a part of the force on it: ½ p (−z, x) with its place (x, z). In a direction that is free this has a
   /// potential, as the other one is given.
   struct PressedEnd {
-    Index x, z;     ///< freedoms
+    Index x, z;     ///< degrees of freedom
     Vec2 rest;      ///< stress-free place, from the origin
     Driven excess;  ///< p [force/length]
 
-    bool joins(Index freedom) const { return freedom == x || freedom == z; }
-    Index other(Index freedom) const { return freedom == x ? z : x; }
+    bool joins(Index dof) const { return dof == x || dof == z; }
+    Index other(Index dof) const { return dof == x ? z : x; }
     /// By the place in the other direction [1/length].
-    double factor(Index freedom) const { return freedom == x ? -0.5 : 0.5; }
-    double rest_of_other(Index freedom) const { return freedom == x ? rest.y() : rest.x(); }
+    double factor(Index dof) const { return dof == x ? -0.5 : 0.5; }
+    double rest_of_other(Index dof) const { return dof == x ? rest.y() : rest.x(); }
   };
   void add_pressed_end(const PressedEnd& end) { pressed_ends_.push_back(end); }
   const std::vector<PressedEnd>& pressed_ends() const { return pressed_ends_; }
@@ -76,57 +77,57 @@ class NodalTerms {
   NodalTerms ramp() const {
     NodalTerms terms = *this;
     for (auto* list : {&terms.loads_, &terms.supports_})
-      for (auto& [freedom, value] : *list) value = {.constant = 0.0, .proportional = value.constant};
+      for (auto& [dof, value] : *list) value = {.constant = 0.0, .proportional = value.constant};
     for (PressedEnd& end : terms.pressed_ends_) end.excess = {.constant = 0.0, .proportional = end.excess.constant};
     return terms;
   }
 
-  bool is_held(Index freedom) const { return find(supports_, freedom) != nullptr; }
+  bool is_held(Index dof) const { return find(supports_, dof) != nullptr; }
 
-  /// The load on a freedom, the value of a held one, and the stiffness to ground; 0 where there is none.
-  Driven load(Index freedom) const { return value_or_zero(loads_, freedom); }
-  Driven support(Index freedom) const { return value_or_zero(supports_, freedom); }
-  double ground_stiffness(Index freedom) const { return value_or_zero(ground_, freedom); }
+  /// The load on a degree of freedom, the value of a held one, and the stiffness to ground; 0 where there is none.
+  Driven load(Index dof) const { return value_or_zero(loads_, dof); }
+  Driven support(Index dof) const { return value_or_zero(supports_, dof); }
+  double ground_stiffness(Index dof) const { return value_or_zero(ground_, dof); }
 
-  /// A spring between two freedoms.
+  /// A spring between two degrees of freedom.
   struct Spring {
     Index first, second;
     double stiffness;
 
-    bool joins(Index freedom) const { return freedom == first || freedom == second; }
-    Index other(Index freedom) const { return freedom == first ? second : first; }
+    bool joins(Index dof) const { return dof == first || dof == second; }
+    Index other(Index dof) const { return dof == first ? second : first; }
   };
   const std::vector<Spring>& springs() const { return springs_; }
 
-  /// Whether the freedom is held at a value that is not always zero; and whether any is.
-  bool is_displaced(Index freedom) const { return !support(freedom).is_zero(); }
+  /// Whether the degree of freedom is held at a value that is not always zero; and whether any is.
+  bool is_displaced(Index dof) const { return !support(dof).is_zero(); }
   bool has_displaced_supports() const {
     return std::any_of(supports_.begin(), supports_.end(), [](const auto& entry) { return !entry.second.is_zero(); });
   }
 
-  /// visit(freedom, rate by λ) of each support that λ moves.
+  /// visit(degree of freedom, rate by λ) of each support that λ moves.
   template <class Visit>
   void for_each_moved_support(const Visit& visit) const {
-    for (const auto& [freedom, value] : supports_)
-      if (value.proportional != 0.0) visit(freedom, value.proportional);
+    for (const auto& [dof, value] : supports_)
+      if (value.proportional != 0.0) visit(dof, value.proportional);
   }
 
-  /// Greatest proportional load [force]; `length_of(freedom)` is 1, or the length that a moment is divided by.
+  /// Greatest proportional load [force]; `length_of(degree of freedom)` is 1, or the length that a moment is divided
+  /// by.
   template <class LengthOf>
   double greatest_proportional_load(const LengthOf& length_of) const {
     double greatest = 0.0;
-    for (const auto& [freedom, load] : loads_)
-      greatest = std::max(greatest, std::abs(load.proportional) / length_of(freedom));
+    for (const auto& [dof, load] : loads_) greatest = std::max(greatest, std::abs(load.proportional) / length_of(dof));
     return greatest;
   }
 
   /// Adds k u − p and the forces of springs to the forces F on the unknowns.
   template <class UnknownOf, class DisplacementOf>
   void add_forces(double lambda, const UnknownOf& unknown_of, const DisplacementOf& displacement_of, double* F) const {
-    for (const auto& [freedom, load] : loads_)
-      if (const Index i = unknown_of(freedom); i >= 0) F[i] -= load.at(lambda);
-    for (const auto& [freedom, k] : ground_)
-      if (const Index i = unknown_of(freedom); i >= 0) F[i] += k * displacement_of(freedom);
+    for (const auto& [dof, load] : loads_)
+      if (const Index i = unknown_of(dof); i >= 0) F[i] -= load.at(lambda);
+    for (const auto& [dof, k] : ground_)
+      if (const Index i = unknown_of(dof); i >= 0) F[i] += k * displacement_of(dof);
     for (const Spring& spring : springs_) {
       const double force = spring.stiffness * (displacement_of(spring.second) - displacement_of(spring.first));
       if (const Index i = unknown_of(spring.first); i >= 0) F[i] -= force;
@@ -139,8 +140,8 @@ class NodalTerms {
         if (const Index i = unknown_of(*spring.first); i >= 0) F[i] -= force;
     }
     for (const PressedEnd& end : pressed_ends_)
-      for (const Index freedom : {end.x, end.z})
-        if (const Index i = unknown_of(freedom); i >= 0) F[i] += force_of(end, freedom, lambda, displacement_of);
+      for (const Index dof : {end.x, end.z})
+        if (const Index i = unknown_of(dof); i >= 0) F[i] += force_of(end, dof, lambda, displacement_of);
   }
 
   /// Adds these forces and their derivatives to F, K and F_λ, and lists the stiffnesses in `ground`. K has the pattern
@@ -149,29 +150,29 @@ class NodalTerms {
   void linearize(double lambda, const UnknownOf& unknown_of, const DisplacementOf& displacement_of,
                  Linearization& out) const {
     add_forces(lambda, unknown_of, displacement_of, out.F.data());
-    for (const auto& [freedom, load] : loads_)
-      if (const Index i = unknown_of(freedom); i >= 0) out.F_lambda[i] -= load.proportional;
+    for (const auto& [dof, load] : loads_)
+      if (const Index i = unknown_of(dof); i >= 0) out.F_lambda[i] -= load.proportional;
     out.ground.clear();
-    for (const auto& [freedom, k] : ground_)
-      if (const Index i = unknown_of(freedom); i >= 0) {
+    for (const auto& [dof, k] : ground_)
+      if (const Index i = unknown_of(dof); i >= 0) {
         out.K.coeffRef(i, i) += k;
         out.ground.push_back({.row = i, .column = i, .stiffness = k});
       }
     for (const Spring& spring : springs_) linearize(spring, unknown_of, out);
     for (const LawSpring& spring : law_springs_) linearize(spring, unknown_of, displacement_of, out);
     for (const PressedEnd& end : pressed_ends_)
-      for (const Index freedom : {end.x, end.z})
-        if (const Index i = unknown_of(freedom); i >= 0)
-          out.F_lambda[i] += force_rate_of(end, freedom, lambda, displacement_of);
+      for (const Index dof : {end.x, end.z})
+        if (const Index i = unknown_of(dof); i >= 0)
+          out.F_lambda[i] += force_rate_of(end, dof, lambda, displacement_of);
   }
 
-  /// Σ ½ k u² − Σ p u, over free and held freedoms, and the energy of springs between them.
+  /// Σ ½ k u² − Σ p u, over free and held degrees of freedom, and the energy of springs between them.
   template <class DisplacementOf>
   double energy(double lambda, const DisplacementOf& displacement_of) const {
     double energy = 0.0;
-    for (const auto& [freedom, load] : loads_) energy -= load.at(lambda) * displacement_of(freedom);
-    for (const auto& [freedom, k] : ground_) {
-      const double u = displacement_of(freedom);
+    for (const auto& [dof, load] : loads_) energy -= load.at(lambda) * displacement_of(dof);
+    for (const auto& [dof, k] : ground_) {
+      const double u = displacement_of(dof);
       energy += 0.5 * k * u * u;
     }
     for (const Spring& spring : springs_) {
@@ -180,95 +181,93 @@ class NodalTerms {
     }
     for (const LawSpring& spring : law_springs_) energy += spring.law->at(stretch_of(spring, displacement_of)).energy;
     for (const PressedEnd& end : pressed_ends_)
-      for (const Index freedom : {end.x, end.z})
-        if (!is_held(freedom)) energy += force_of(end, freedom, lambda, displacement_of) * displacement_of(freedom);
+      for (const Index dof : {end.x, end.z})
+        if (!is_held(dof)) energy += force_of(end, dof, lambda, displacement_of) * displacement_of(dof);
     return energy;
   }
 
-  /// What the support of a held freedom exerts besides the force of the elements: k ū − p and the forces of springs.
+  /// What the support of a held degree of freedom exerts besides the force of the elements: k ū − p and the forces of
+  /// springs.
   template <class DisplacementOf>
-  double support_force(Index freedom, double lambda, const DisplacementOf& displacement_of) const {
-    double force = ground_stiffness(freedom) * support(freedom).at(lambda) - load(freedom).at(lambda);
+  double support_force(Index dof, double lambda, const DisplacementOf& displacement_of) const {
+    double force = ground_stiffness(dof) * support(dof).at(lambda) - load(dof).at(lambda);
     for (const Spring& spring : springs_)
-      if (spring.joins(freedom))
-        force += spring.stiffness * (displacement_of(freedom) - displacement_of(spring.other(freedom)));
+      if (spring.joins(dof)) force += spring.stiffness * (displacement_of(dof) - displacement_of(spring.other(dof)));
     for (const LawSpring& spring : law_springs_)
-      if (spring.joins(freedom))
-        force += spring.sign(freedom) * spring.law->at(stretch_of(spring, displacement_of)).force;
+      if (spring.joins(dof)) force += spring.sign(dof) * spring.law->at(stretch_of(spring, displacement_of)).force;
     for (const PressedEnd& end : pressed_ends_)
-      if (end.joins(freedom)) force += force_of(end, freedom, lambda, displacement_of);
+      if (end.joins(dof)) force += force_of(end, dof, lambda, displacement_of);
     return force;
   }
 
   /// Adds its derivatives by the unknowns, a vector, and by λ.
   template <class UnknownOf, class DisplacementOf, class Derivatives>
-  void add_support_force_gradient(Index freedom, double lambda, const UnknownOf& unknown_of,
+  void add_support_force_gradient(Index dof, double lambda, const UnknownOf& unknown_of,
                                   const DisplacementOf& displacement_of, Derivatives& by_unknowns,
                                   double& by_lambda) const {
-    by_lambda += ground_stiffness(freedom) * support(freedom).proportional - load(freedom).proportional;
+    by_lambda += ground_stiffness(dof) * support(dof).proportional - load(dof).proportional;
     for (const Spring& spring : springs_) {
-      if (!spring.joins(freedom)) continue;
-      const Index other = spring.other(freedom), i = unknown_of(other);
-      by_lambda += spring.stiffness * (support(freedom).proportional - support(other).proportional);
+      if (!spring.joins(dof)) continue;
+      const Index other = spring.other(dof), i = unknown_of(other);
+      by_lambda += spring.stiffness * (support(dof).proportional - support(other).proportional);
       if (i >= 0) by_unknowns[i] -= spring.stiffness;
     }
     for (const LawSpring& spring : law_springs_) {
-      if (!spring.joins(freedom)) continue;
-      const double k = spring.sign(freedom) * spring.law->at(stretch_of(spring, displacement_of)).stiffness;
+      if (!spring.joins(dof)) continue;
+      const double k = spring.sign(dof) * spring.law->at(stretch_of(spring, displacement_of)).stiffness;
       by_lambda += k * stretch_rate(spring);
       if (const Index i = unknown_of(spring.second); i >= 0) by_unknowns[i] += k;
       if (spring.first)
         if (const Index i = unknown_of(*spring.first); i >= 0) by_unknowns[i] -= k;
     }
     for (const PressedEnd& end : pressed_ends_) {
-      if (!end.joins(freedom)) continue;
-      by_lambda += force_rate_of(end, freedom, lambda, displacement_of);
-      if (const Index i = unknown_of(end.other(freedom)); i >= 0)
-        by_unknowns[i] += end.factor(freedom) * end.excess.at(lambda);
+      if (!end.joins(dof)) continue;
+      by_lambda += force_rate_of(end, dof, lambda, displacement_of);
+      if (const Index i = unknown_of(end.other(dof)); i >= 0) by_unknowns[i] += end.factor(dof) * end.excess.at(lambda);
     }
   }
 
-  /// What loads and springs exert on a freedom that is not held: p − k u and the forces of springs. Adds its
+  /// What loads and springs exert on a degree of freedom that is not held: p − k u and the forces of springs. Adds its
   /// derivatives by the unknowns and by λ.
   template <class UnknownOf, class DisplacementOf, class Derivatives>
-  double force_on(Index freedom, double lambda, const UnknownOf& unknown_of, const DisplacementOf& displacement_of,
+  double force_on(Index dof, double lambda, const UnknownOf& unknown_of, const DisplacementOf& displacement_of,
                   Derivatives& by_unknowns, double& by_lambda) const {
-    const double ground = ground_stiffness(freedom);
+    const double ground = ground_stiffness(dof);
     double resists = ground;
     for (const Spring& spring : springs_)
-      if (spring.joins(freedom)) resists += spring.stiffness;
+      if (spring.joins(dof)) resists += spring.stiffness;
     Derivatives against = Derivatives::Zero(by_unknowns.size());
     double against_lambda = 0.0;
-    add_support_force_gradient(freedom, lambda, unknown_of, displacement_of, against, against_lambda);
-    if (const Index i = unknown_of(freedom); i >= 0) against[i] += resists;
+    add_support_force_gradient(dof, lambda, unknown_of, displacement_of, against, against_lambda);
+    if (const Index i = unknown_of(dof); i >= 0) against[i] += resists;
     by_unknowns -= against;
     by_lambda -= against_lambda;
-    return -support_force(freedom, lambda, displacement_of) - ground * displacement_of(freedom);
+    return -support_force(dof, lambda, displacement_of) - ground * displacement_of(dof);
   }
 
  private:
   template <class Value>
-  using List = std::vector<std::pair<Index, Value>>;  // ascending by freedom
+  using List = std::vector<std::pair<Index, Value>>;  // ascending by degree of freedom
 
   template <class Entries>
-  static auto place(Entries& list, Index freedom) {
-    return std::lower_bound(list.begin(), list.end(), freedom,
+  static auto place(Entries& list, Index dof) {
+    return std::lower_bound(list.begin(), list.end(), dof,
                             [](const auto& here, Index wanted) { return here.first < wanted; });
   }
   template <class Value>
-  static Value& entry(List<Value>& list, Index freedom) {
-    auto at = place(list, freedom);
-    if (at == list.end() || at->first != freedom) at = list.insert(at, {freedom, Value{}});
+  static Value& entry(List<Value>& list, Index dof) {
+    auto at = place(list, dof);
+    if (at == list.end() || at->first != dof) at = list.insert(at, {dof, Value{}});
     return at->second;
   }
   template <class Value>
-  static const Value* find(const List<Value>& list, Index freedom) {
-    const auto at = place(list, freedom);
-    return at == list.end() || at->first != freedom ? nullptr : &at->second;
+  static const Value* find(const List<Value>& list, Index dof) {
+    const auto at = place(list, dof);
+    return at == list.end() || at->first != dof ? nullptr : &at->second;
   }
   template <class Value>
-  static Value value_or_zero(const List<Value>& list, Index freedom) {
-    const Value* found = find(list, freedom);
+  static Value value_or_zero(const List<Value>& list, Index dof) {
+    const Value* found = find(list, dof);
     return found == nullptr ? Value{} : *found;
   }
 
@@ -294,18 +293,17 @@ class NodalTerms {
     if ((a >= 0) != (b >= 0)) out.ground.push_back({.row = std::max(a, b), .column = std::max(a, b), .stiffness = k});
   }
 
-  // The force of a pressed end on one of its freedoms, and its rate by λ at fixed unknowns.
+  // The force of a pressed end on one of its degrees of freedom, and its rate by λ at fixed unknowns.
   template <class DisplacementOf>
-  static double force_of(const PressedEnd& end, Index freedom, double lambda, const DisplacementOf& displacement_of) {
-    const double place = end.rest_of_other(freedom) + displacement_of(end.other(freedom));
-    return end.factor(freedom) * end.excess.at(lambda) * place;
+  static double force_of(const PressedEnd& end, Index dof, double lambda, const DisplacementOf& displacement_of) {
+    const double place = end.rest_of_other(dof) + displacement_of(end.other(dof));
+    return end.factor(dof) * end.excess.at(lambda) * place;
   }
   template <class DisplacementOf>
-  double force_rate_of(const PressedEnd& end, Index freedom, double lambda,
-                       const DisplacementOf& displacement_of) const {
-    const double place = end.rest_of_other(freedom) + displacement_of(end.other(freedom));
-    return end.factor(freedom) *
-           (end.excess.proportional * place + end.excess.at(lambda) * support(end.other(freedom)).proportional);
+  double force_rate_of(const PressedEnd& end, Index dof, double lambda, const DisplacementOf& displacement_of) const {
+    const double place = end.rest_of_other(dof) + displacement_of(end.other(dof));
+    return end.factor(dof) *
+           (end.excess.proportional * place + end.excess.at(lambda) * support(end.other(dof)).proportional);
   }
 
   // A spring whose other end is held is one to a ground that may move.

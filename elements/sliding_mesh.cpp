@@ -12,11 +12,11 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
     : structure_(structure), cut_(std::move(cut)) {
   assert(static_cast<Index>(cut_.size()) == structure.strands());
   Index unknowns = 0, first_element = 0, node_count = 0, rotations = 0;
-  unknown_of_freedom_.assign(structure.freedoms_.size(), held);
+  unknown_of_dof_.assign(structure.dofs_.size(), held);
   const auto number_anchor = [&](const SlidingStructure::End& end) {
-    for (const Index freedom : end.freedom) {
-      Index& unknown = unknown_of_freedom_[static_cast<std::size_t>(freedom)];
-      if (structure.nodal_.is_held(freedom) || unknown != held) continue;
+    for (const Index dof : end.dof) {
+      Index& unknown = unknown_of_dof_[static_cast<std::size_t>(dof)];
+      if (structure.nodal_.is_held(dof) || unknown != held) continue;
       unknown = unknowns++;
     }
   };
@@ -64,7 +64,7 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
         continue;
       }
       for (std::size_t j = 0; j < 2; ++j)
-        unknown_of_freedom_[static_cast<std::size_t>(load.freedom[j])] =
+        unknown_of_dof_[static_cast<std::size_t>(load.dof[j])] =
             unknowns + 3 * (load_nodes[i] - 1) + static_cast<Index>(j);
     }
     unknowns += 3 * (meshed.elements - 1);
@@ -98,25 +98,25 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
 
 // Rotations of inner nodes are sets by themselves, those of ends what supports and springs make of them.
 std::vector<Index> SlidingStructureMesh::turning_sets() const {
-  TurningSets of_freedoms(structure_.freedoms_.size());
-  of_freedoms.add(structure_.nodal_);
+  TurningSets of_dofs(structure_.dofs_.size());
+  of_dofs.add(structure_.nodal_);
   std::vector<Index> sets(static_cast<std::size_t>(unknowns()), -1);
-  const auto first_of_inner = static_cast<Index>(structure_.freedoms_.size()) + 1;
+  const auto first_of_inner = static_cast<Index>(structure_.dofs_.size()) + 1;
   for (Index r = 0; r < structure_.strands(); ++r)
     for (Index i = 0; i < nodes(r); ++i) {
       const Index turn = node_unknowns(r, i)[2];
       if (turn == held) continue;
       const bool inner = i > 0 && i + 1 < nodes(r);
       sets[static_cast<std::size_t>(turn)] =
-          inner ? first_of_inner + turn : of_freedoms.of(structure_.at(r).ends[i == 0 ? 0 : 1].freedom[2]);
+          inner ? first_of_inner + turn : of_dofs.of(structure_.at(r).ends[i == 0 ? 0 : 1].dof[2]);
     }
   return sets;
 }
 
 double SlidingStructureMesh::squared_motion_by_lambda() const {
   double sum = 0.0;
-  structure_.nodal_.for_each_moved_support([&](Index freedom, double rate) {
-    const bool turns = structure_.freedoms_[static_cast<std::size_t>(freedom)].freedom == Freedom::rotation;
+  structure_.nodal_.for_each_moved_support([&](Index dof, double rate) {
+    const bool turns = structure_.dofs_[static_cast<std::size_t>(dof)].dof == Dof::rotation;
     sum += (turns ? rotation_weight_ : displacement_weight_) * rate * rate;
   });
   double heat = 0.0;
@@ -152,20 +152,20 @@ NodeUnknowns SlidingStructureMesh::node_unknowns(Index strand, Index position) c
     const Index first = meshed.first_inner + 3 * (position - 1);
     return {first, first + 1, first + 2};
   }
-  const auto& freedom = structure_.at(strand).ends[position == 0 ? 0 : 1].freedom;
-  return {unknown(freedom[0]), unknown(freedom[1]), unknown(freedom[2])};
+  const auto& dof = structure_.at(strand).ends[position == 0 ? 0 : 1].dof;
+  return {unknown(dof[0]), unknown(dof[1]), unknown(dof[2])};
 }
 
-// Position or rotation of a joint's freedom.
-double SlidingStructureMesh::anchor(Index freedom, const MeshState& now) const {
-  if (const Index i = unknown(freedom); i != held) return now.x[i];
-  return structure_.rest_value(freedom) + structure_.nodal_.support(freedom).at(now.lambda);
+// Position or rotation of a joint's degree of freedom.
+double SlidingStructureMesh::anchor(Index dof, const MeshState& now) const {
+  if (const Index i = unknown(dof); i != held) return now.x[i];
+  return structure_.rest_value(dof) + structure_.nodal_.support(dof).at(now.lambda);
 }
 
 Eigen::Vector3d SlidingStructureMesh::node_rate(Index strand, Index position) const {
   if (position > 0 && position < mesh_of(strand).elements) return Eigen::Vector3d::Zero();
-  const auto& freedom = structure_.at(strand).ends[position == 0 ? 0 : 1].freedom;
-  return {structure_.held_rate(freedom[0]), structure_.held_rate(freedom[1]), structure_.held_rate(freedom[2])};
+  const auto& dof = structure_.at(strand).ends[position == 0 ? 0 : 1].dof;
+  return {structure_.held_rate(dof[0]), structure_.held_rate(dof[1]), structure_.held_rate(dof[2])};
 }
 
 SlidingStructureMesh::Six SlidingStructureMesh::end_rates(Index strand, Index position) const {
@@ -176,8 +176,8 @@ SlidingStructureMesh::Six SlidingStructureMesh::end_rates(Index strand, Index po
 
 bool SlidingStructureMesh::has_displaced_end(Index strand, Index position) const {
   const auto is_displaced = [&](std::size_t end) {
-    const auto& freedom = structure_.at(strand).ends[end].freedom;
-    return std::any_of(freedom.begin(), freedom.end(), [&](Index f) { return structure_.nodal_.is_displaced(f); });
+    const auto& dof = structure_.at(strand).ends[end].dof;
+    return std::any_of(dof.begin(), dof.end(), [&](Index f) { return structure_.nodal_.is_displaced(f); });
   };
   return (position == 0 && is_displaced(0)) || (position + 1 == mesh_of(strand).elements && is_displaced(1));
 }
@@ -190,8 +190,7 @@ AxisPlace SlidingStructureMesh::node(Index strand, Index position, const MeshSta
   }
   const SlidingStructure::Run& described = structure_.at(strand);
   const auto& end = described.ends[position == 0 ? 0 : 1];
-  return {.position = {anchor(end.freedom[0], now), anchor(end.freedom[1], now)},
-          .angle = end.angle + anchor(end.freedom[2], now)};
+  return {.position = {anchor(end.dof[0], now), anchor(end.dof[1], now)}, .angle = end.angle + anchor(end.dof[2], now)};
 }
 
 SlidingStructureMesh::Ends SlidingStructureMesh::ends(Index strand, Index position, const MeshState& now) const {
@@ -344,8 +343,8 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(const InnerLoad& lo
 void SlidingStructureMesh::residual(const MeshState& now, Eigen::Ref<Vector> F) const {
   F.setZero();
   structure_.nodal_.add_forces(
-      now.lambda, [this](Index freedom) { return unknown(freedom); },
-      [&](Index freedom) { return structure_.value(*this, now, freedom); }, F.data());
+      now.lambda, [this](Index dof) { return unknown(dof); },
+      [&](Index dof) { return structure_.value(*this, now, dof); }, F.data());
   add_fours(now, F, nullptr);
   for (const auto& [r, e] : others_) add_forces(r, e, respond_unloaded(r, e, now, false), F);
   for (const InnerLoad& load : inner_loads_) {
@@ -369,8 +368,8 @@ void SlidingStructureMesh::linearize(const MeshState& now, Linearization& out) c
   out.F_lambda.setZero(n);
   out.B.setZero(n, m);
   structure_.nodal_.linearize(
-      now.lambda, [this](Index freedom) { return unknown(freedom); },
-      [&](Index freedom) { return structure_.value(*this, now, freedom); }, out);
+      now.lambda, [this](Index dof) { return unknown(dof); },
+      [&](Index dof) { return structure_.value(*this, now, dof); }, out);
   add_fours(now, out.F, &out);
   for (const auto& [r, e] : others_) add(r, e, respond_unloaded(r, e, now, m > 0), out);
   for (const InnerLoad& load : inner_loads_) {
@@ -396,8 +395,7 @@ double SlidingStructureMesh::energy(const MeshState& now) const {
   double energy = 0.0;
   for (Index r = 0; r < structure_.strands(); ++r)
     for (Index e = 0; e < mesh_of(r).elements; ++e) energy += respond(r, e, now, false).energy;
-  return energy +
-         structure_.nodal_.energy(now.lambda, [&](Index freedom) { return structure_.value(*this, now, freedom); });
+  return energy + structure_.nodal_.energy(now.lambda, [&](Index dof) { return structure_.value(*this, now, dof); });
 }
 
 SlidingMesh::EndLoad SlidingStructureMesh::load_on_end(Index strand, bool last, const MeshState& now) const {
@@ -405,29 +403,29 @@ SlidingMesh::EndLoad SlidingStructureMesh::load_on_end(Index strand, bool last, 
   const auto displacement_of = [&](Index of) { return structure_.value(*this, now, of); };
   EndLoad load;
   for (std::size_t i = 0; i < 2; ++i) {
-    const Index freedom = structure_.at(strand).ends[last ? 1 : 0].freedom[i];
+    const Index dof = structure_.at(strand).ends[last ? 1 : 0].dof[i];
     load.dx[i] = Vector::Zero(unknowns());
     const auto row = static_cast<Index>(i);
     load.force[row] =
-        structure_.nodal_.force_on(freedom, now.lambda, unknown_of, displacement_of, load.dx[i], load.dlambda[row]);
+        structure_.nodal_.force_on(dof, now.lambda, unknown_of, displacement_of, load.dx[i], load.dlambda[row]);
   }
   return load;
 }
 
-SlidingStructure::Reaction SlidingStructureMesh::reaction(const MeshState& now, Index freedom) const {
+SlidingStructure::Reaction SlidingStructureMesh::reaction(const MeshState& now, Index dof) const {
   SlidingStructure::Reaction reaction{.dx = Vector::Zero(unknowns()), .ds = Vector::Zero(breakpoints())};
-  if (unknown(freedom) != held) return reaction;
+  if (unknown(dof) != held) return reaction;
   const NodalTerms& terms = structure_.nodal_;
   const auto displacement_of = [&](Index of) { return structure_.value(*this, now, of); };
-  reaction.value = terms.support_force(freedom, now.lambda, displacement_of);
+  reaction.value = terms.support_force(dof, now.lambda, displacement_of);
   terms.add_support_force_gradient(
-      freedom, now.lambda, [this](Index of) { return unknown(of); }, displacement_of, reaction.dx, reaction.dlambda);
+      dof, now.lambda, [this](Index of) { return unknown(of); }, displacement_of, reaction.dx, reaction.dlambda);
   for (Index r = 0; r < structure_.strands(); ++r)
     for (std::size_t end = 0; end < 2; ++end) {
-      const auto& freedoms = structure_.at(r).ends[end].freedom;
-      const auto here = std::find(freedoms.begin(), freedoms.end(), freedom);
-      if (here == freedoms.end()) continue;
-      const Index row = (end == 0 ? 0 : 3) + static_cast<Index>(here - freedoms.begin());
+      const auto& dofs = structure_.at(r).ends[end].dof;
+      const auto here = std::find(dofs.begin(), dofs.end(), dof);
+      if (here == dofs.end()) continue;
+      const Index row = (end == 0 ? 0 : 3) + static_cast<Index>(here - dofs.begin());
       const Index e = end == 0 ? 0 : mesh_of(r).elements - 1;
       const Response response = respond(r, e, now, true);
       reaction.value += response.force[row];

@@ -47,9 +47,9 @@ class SlidingStructureMesh final : public SlidingMesh {
   AxisPlace inside(Index strand, Index position, double fraction, const MeshState& now) const override;
   Vector transferred(const MeshState& now, const SlidingMesh& to, const Vector& s_to) const override;
 
-  Index unknown(Index freedom) const { return unknown_of_freedom_[static_cast<std::size_t>(freedom)]; }
+  Index unknown(Index dof) const { return unknown_of_dof_[static_cast<std::size_t>(dof)]; }
 
-  SlidingStructure::Reaction reaction(const MeshState& now, Index freedom) const;
+  SlidingStructure::Reaction reaction(const MeshState& now, Index dof) const;
 
  private:
   static constexpr Index held = -1;  // in place of an unknown, or of a breakpoint
@@ -89,7 +89,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   const MeshedRun& mesh_of(Index strand) const { return runs_[static_cast<std::size_t>(strand)]; }
   static Coordinate interpolated(const SegmentEnd& a, const SegmentEnd& b, double r);
   Ends ends(Index strand, Index position, const MeshState& now) const;
-  double anchor(Index freedom, const MeshState& now) const;
+  double anchor(Index dof, const MeshState& now) const;
   StretchReference reference(Index strand, Index position, const MeshState& now) const;
   Index element_at(const MaterialPoint& point, const MeshState& now) const;
 
@@ -128,8 +128,8 @@ class SlidingStructureMesh final : public SlidingMesh {
   void add_pressure(Index strand, Index position, const Ends& at, const MeshState& now, Response& out) const;
   Response with_end_forces(Response response, Index strand, Index position, const MeshState& now) const;
 
-  // The element on one side of a node, where the node stands among its freedoms, and the sign of what the element does
-  // to the node, by which it is stretched and bent.
+  // The element on one side of a node, where the node stands among its degrees of freedom, and the sign of what the
+  // element does to the node, by which it is stretched and bent.
   struct ElementBeside {
     Index element, place;
     double sign;
@@ -194,7 +194,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   ElementsPerSegment cut_;
   std::vector<std::pair<Index, Index>> breakpoints_;
   std::vector<MeshedRun> runs_;
-  std::vector<Index> unknown_of_freedom_;  // of the anchors, and of x and z where point loads have nodes
+  std::vector<Index> unknown_of_dof_;  // of the anchors, and of x and z where point loads have nodes
   std::vector<InnerLoad> inner_loads_;
   BlockAssembly assembly_{0, {}};
   std::vector<Four> fours_;

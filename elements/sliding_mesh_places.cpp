@@ -143,9 +143,9 @@ Vector SlidingStructureMesh::transferred(const MeshState& now, const SlidingMesh
       const NodeUnknowns unknowns = to.node_unknowns(r, i);
       const bool first = i == 0, last = i + 1 == to.nodes(r);
       if (first || last) {
-        const auto& freedom = structure_.at(r).ends[first ? 0 : 1].freedom;
+        const auto& dof = structure_.at(r).ends[first ? 0 : 1].dof;
         for (std::size_t j = 0; j < 3; ++j)
-          if (unknowns[j] != held) moved[unknowns[j]] = anchor(freedom[j], now);
+          if (unknowns[j] != held) moved[unknowns[j]] = anchor(dof[j], now);
       } else {
         const AxisPlace at = place({.strand = r, .s = to.coordinate(r, i, s_to)}, now);
         moved[unknowns[0]] = at.position.x();

@@ -71,19 +71,19 @@ Row PlaceObservable::gradient(const State& state) const {
 
 double JointObservable::value(const State& state) const {
   const SlidingMesh& mesh = mesh_of(state);
-  if (what_ == What::motion) return structure_.value(mesh, mesh_state_of(state), freedom_);
-  return structure_.reaction(mesh, mesh_state_of(state), freedom_).value;
+  if (what_ == What::motion) return structure_.value(mesh, mesh_state_of(state), dof_);
+  return structure_.reaction(mesh, mesh_state_of(state), dof_).value;
 }
 
 Row JointObservable::gradient(const State& state) const {
   const SlidingMesh& mesh = mesh_of(state);
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   if (what_ == What::motion) {
-    if (const auto i = structure_.unknown(mesh, freedom_)) row.dx[*i] = 1.0;
-    row.dlambda = structure_.held_rate(freedom_);
+    if (const auto i = structure_.unknown(mesh, dof_)) row.dx[*i] = 1.0;
+    row.dlambda = structure_.held_rate(dof_);
     return row;
   }
-  const auto reaction = structure_.reaction(mesh, mesh_state_of(state), freedom_);
+  const auto reaction = structure_.reaction(mesh, mesh_state_of(state), dof_);
   row.dx.head(mesh.unknowns()) = reaction.dx;
   row.dx.tail(mesh.breakpoints()) = reaction.ds;
   row.dlambda = reaction.dlambda;

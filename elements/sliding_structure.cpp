@@ -58,37 +58,37 @@ double SlidingStructure::natural_curvature_second(const MaterialPoint& point) co
 
 StrandEnd SlidingStructure::first_of_joint(Index strand, bool last, bool on_axis) const {
   constexpr double in_line = 0.05;  // [rad]
-  const auto freedoms = [&](const StrandEnd& end) { return at(end.strand).ends[end.last ? 1 : 0].freedom; };
+  const auto dofs = [&](const StrandEnd& end) { return at(end.strand).ends[end.last ? 1 : 0].dof; };
   const auto angle = [&](const StrandEnd& end) {
     return undeformed({.strand = end.strand, .s = end.last ? length(end.strand) : 0.0}, true).angle;
   };
   const StrandEnd here{.strand = strand, .last = last};
   const auto is_same = [&](const StrandEnd& other) {
-    if (freedoms(other) != freedoms(here)) return false;
+    if (dofs(other) != dofs(here)) return false;
     return on_axis || (half_height(other.strand) == half_height(strand) &&
                        std::abs(std::remainder(angle(other) - angle(here), pi)) <= in_line);
   };
-  const std::vector<StrandEnd>& ends = ends_at(freedoms(here)[1]);
+  const std::vector<StrandEnd>& ends = ends_at(dofs(here)[1]);
   return *std::find_if(ends.begin(), ends.end(), is_same);
 }
 
 bool SlidingStructure::is_tip(Index strand, bool last) const {
   const End& end = at(strand).ends[last ? 1 : 0];
-  return ends_at(end.freedom[1]).size() == 1 && !nodal_.is_held(end.freedom[1]) && !nodal_.is_held(end.freedom[2]);
+  return ends_at(end.dof[1]).size() == 1 && !nodal_.is_held(end.dof[1]) && !nodal_.is_held(end.dof[2]);
 }
 
 std::optional<StrandEnd> SlidingStructure::joined_end(Index strand, bool last) const {
   const End& end = at(strand).ends[last ? 1 : 0];
-  const std::vector<StrandEnd>& ends = ends_at(end.freedom[1]);
-  if (ends.size() != 2 || nodal_.is_held(end.freedom[1]) || nodal_.is_held(end.freedom[2])) return std::nullopt;
+  const std::vector<StrandEnd>& ends = ends_at(end.dof[1]);
+  if (ends.size() != 2 || nodal_.is_held(end.dof[1]) || nodal_.is_held(end.dof[2])) return std::nullopt;
   const StrandEnd other = ends[ends[0] == StrandEnd{.strand = strand, .last = last} ? 1 : 0];
-  const bool turn_together = at(other.strand).ends[other.last ? 1 : 0].freedom == end.freedom;
+  const bool turn_together = at(other.strand).ends[other.last ? 1 : 0].dof == end.dof;
   return turn_together ? std::optional(other) : std::nullopt;
 }
 
 bool SlidingStructure::is_hinged(Index strand, bool last) const {
   const End& end = at(strand).ends[last ? 1 : 0];
-  return ends_at(end.freedom[1]).size() == 1 && nodal_.is_held(end.freedom[1]) && !nodal_.is_held(end.freedom[2]);
+  return ends_at(end.dof[1]).size() == 1 && nodal_.is_held(end.dof[1]) && !nodal_.is_held(end.dof[2]);
 }
 
 Vec2 SlidingStructure::load(const MaterialPoint& point, const AxisPlace& place, double stretch, double lambda) const {
@@ -115,8 +115,8 @@ std::pair<std::string, double> SlidingStructure::label(const MaterialPoint& poin
   return {part->member, part->first_fraction + t * (part->last_fraction - part->first_fraction)};
 }
 
-std::optional<MaterialPoint> SlidingStructure::inside(Index freedom) const {
-  const Index node = freedoms_[static_cast<std::size_t>(freedom)].node;
+std::optional<MaterialPoint> SlidingStructure::inside(Index dof) const {
+  const Index node = dofs_[static_cast<std::size_t>(dof)].node;
   for (Index r = 0; r < strands(); ++r)
     for (const InnerJoint& joint : at(r).joints)
       if (joint.node == node) return MaterialPoint{.strand = r, .s = joint.s};
@@ -166,10 +166,9 @@ Vector SlidingStructure::rest(const SlidingMesh& mesh, const Vector& s) const {
         if (unknowns[which] >= 0) x[unknowns[which]] = value;
       };
       // Joints are where they were put, free of the axis' round-off; their rotations start from zero.
-      const Vec2 position = inner
-                                ? place.position
-                                : positions_[static_cast<std::size_t>(
-                                      freedoms_[static_cast<std::size_t>(at(r).ends[i == 0 ? 0 : 1].freedom[0])].node)];
+      const Vec2 position = inner ? place.position
+                                  : positions_[static_cast<std::size_t>(
+                                        dofs_[static_cast<std::size_t>(at(r).ends[i == 0 ? 0 : 1].dof[0])].node)];
       set(0, position.x());
       set(1, position.y());
       set(2, inner ? place.angle : 0.0);
@@ -177,35 +176,34 @@ Vector SlidingStructure::rest(const SlidingMesh& mesh, const Vector& s) const {
   return x;
 }
 
-std::optional<Index> SlidingStructure::unknown(const SlidingMesh& mesh, Index freedom) const {
-  const Index i = static_cast<const SlidingStructureMesh&>(mesh).unknown(freedom);
+std::optional<Index> SlidingStructure::unknown(const SlidingMesh& mesh, Index dof) const {
+  const Index i = static_cast<const SlidingStructureMesh&>(mesh).unknown(dof);
   return i < 0 ? std::nullopt : std::optional(i);
 }
 
-double SlidingStructure::value(const SlidingMesh& mesh, const MeshState& now, Index freedom) const {
-  const auto i = unknown(mesh, freedom);
-  return i ? now.x[*i] - rest_value(freedom) : nodal_.support(freedom).at(now.lambda);
+double SlidingStructure::value(const SlidingMesh& mesh, const MeshState& now, Index dof) const {
+  const auto i = unknown(mesh, dof);
+  return i ? now.x[*i] - rest_value(dof) : nodal_.support(dof).at(now.lambda);
 }
 
-double SlidingStructure::rest_value(Index freedom) const {
-  const Structure::Meaning& meaning = freedoms_[static_cast<std::size_t>(freedom)];
+double SlidingStructure::rest_value(Index dof) const {
+  const Structure::Meaning& meaning = dofs_[static_cast<std::size_t>(dof)];
   const Vec2& position = positions_[static_cast<std::size_t>(meaning.node)];
-  switch (meaning.freedom) {
-    case Freedom::x:
+  switch (meaning.dof) {
+    case Dof::x:
       return position.x();
-    case Freedom::z:
+    case Dof::z:
       return position.y();
-    case Freedom::rotation:
-    case Freedom::thickness:
-    case Freedom::thickness2:
+    case Dof::rotation:
+    case Dof::thickness:
+    case Dof::thickness2:
       return 0.0;
   }
   return 0.0;
 }
 
-SlidingStructure::Reaction SlidingStructure::reaction(const SlidingMesh& mesh, const MeshState& now,
-                                                      Index freedom) const {
-  return static_cast<const SlidingStructureMesh&>(mesh).reaction(now, freedom);
+SlidingStructure::Reaction SlidingStructure::reaction(const SlidingMesh& mesh, const MeshState& now, Index dof) const {
+  return static_cast<const SlidingStructureMesh&>(mesh).reaction(now, dof);
 }
 
 bool StructureBuilder::can_slide() const {
@@ -221,8 +219,8 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
                                                                   const SlidingStructure::Alike& alike) const {
   auto structure = std::unique_ptr<SlidingStructure>(new SlidingStructure());
   structure->positions_ = positions_;
-  structure->first_freedom_ = first_freedom_;
-  structure->freedoms_ = freedoms_;
+  structure->first_dof_ = first_dof_;
+  structure->dofs_ = dofs_;
   structure->nodal_ = nodal_terms(ramp);
   structure->origin_ = origin();
   structure->length_scale_ = box_diagonal(positions_);
@@ -258,9 +256,9 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
         structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
     }
     const auto end_at = [&](std::size_t node) {
-      return SlidingStructure::End{.freedom = {freedom(mesh.nodes[node], Freedom::x),
-                                               freedom(mesh.nodes[node], Freedom::z), *mesh.rotations[node]},
-                                   .angle = mesh.shape[node].angle};
+      return SlidingStructure::End{
+          .dof = {dof(mesh.nodes[node], Dof::x), dof(mesh.nodes[node], Dof::z), *mesh.rotations[node]},
+          .angle = mesh.shape[node].angle};
     };
     const auto last = mesh.nodes.size() - 1;
     const auto coordinate = [&](std::size_t k) { return member.axis->length() * mesh.fraction(k); };
@@ -302,8 +300,8 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
 }
 
 SlidingStructure::PointLoad SlidingStructure::point_load(Index node) const {
-  const std::array<Index, 2> freedoms{freedom(node, Freedom::x), freedom(node, Freedom::z)};
-  return {.freedom = freedoms, .force = {nodal_.load(freedoms[0]), nodal_.load(freedoms[1])}};
+  const std::array<Index, 2> dofs{dof(node, Dof::x), dof(node, Dof::z)};
+  return {.dof = dofs, .force = {nodal_.load(dofs[0]), nodal_.load(dofs[1])}};
 }
 
 }  // namespace arcwall

@@ -46,18 +46,18 @@ class SlidingStructure final : public SlidingBody {
     return at(strand).point_loads[static_cast<std::size_t>(load)].at(lambda);
   }
   bool end_is_held(Index strand, bool last) const override {
-    return nodal_.is_held(at(strand).ends[last ? 1 : 0].freedom[1]);
+    return nodal_.is_held(at(strand).ends[last ? 1 : 0].dof[1]);
   }
   StrandEnd first_of_joint(Index strand, bool last, bool on_axis) const override;
   bool is_tip(Index strand, bool last) const override;
   std::optional<StrandEnd> joined_end(Index strand, bool last) const override;
   bool is_clamped(Index strand, bool last) const override {
     const End& end = at(strand).ends[last ? 1 : 0];
-    return nodal_.is_held(end.freedom[1]) && nodal_.is_held(end.freedom[2]);
+    return nodal_.is_held(end.dof[1]) && nodal_.is_held(end.dof[2]);
   }
   bool is_hinged(Index strand, bool last) const override;
   bool is_on_roller(Index strand, bool last) const override {
-    return is_hinged(strand, last) && !nodal_.is_held(at(strand).ends[last ? 1 : 0].freedom[0]);
+    return is_hinged(strand, last) && !nodal_.is_held(at(strand).ends[last ? 1 : 0].dof[0]);
   }
   std::pair<std::string, double> label(const MaterialPoint& point) const override;
   std::shared_ptr<const SlidingMesh> mesh(const ElementsPerSegment& cut) const override;
@@ -90,9 +90,9 @@ class SlidingStructure final : public SlidingBody {
     return part_at(member, fraction).at(fraction);
   }
 
-  /// Where a joint's freedom is that lies inside a strand; empty at ends of strands.
-  std::optional<MaterialPoint> inside(Index freedom) const;
-  Freedom kind(Index freedom) const { return freedoms_[static_cast<std::size_t>(freedom)].freedom; }
+  /// Where a joint's degree of freedom is that lies inside a strand; empty at ends of strands.
+  std::optional<MaterialPoint> inside(Index dof) const;
+  Dof kind(Index dof) const { return dofs_[static_cast<std::size_t>(dof)].dof; }
 
   /// All of a member, from end to end.
   std::vector<MemberPart> parts_of(const std::string& member) const;
@@ -100,24 +100,23 @@ class SlidingStructure final : public SlidingBody {
   /// Stress-free place and direction of the axis, with or without imperfection.
   AxisPlace undeformed(const MaterialPoint& point, bool imperfect) const;
 
-  /// What the unknown of a support's or a joint's freedom is; see StructureBuilder::freedom.
-  Index freedom(Index node, Freedom which) const {
-    return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z);
-  }
+  /// What the unknown of a support's or a joint's degree of freedom is; see StructureBuilder::degree of freedom.
+  Index dof(Index node, Dof which) const { return first_dof_[static_cast<std::size_t>(node)] + (which == Dof::z); }
 
-  /// Displacement or rotation of a joint's freedom, and the rate of this value by λ at fixed unknowns: that of the
-  /// support, 0 of a freedom that is not held.
-  double value(const SlidingMesh& mesh, const MeshState& now, Index freedom) const;
-  double held_rate(Index freedom) const { return nodal_.support(freedom).proportional; }
-  std::optional<Index> unknown(const SlidingMesh& mesh, Index freedom) const;
+  /// Displacement or rotation of a joint's degree of freedom, and the rate of this value by λ at fixed unknowns: that
+  /// of the support, 0 of a degree of freedom that is not held.
+  double value(const SlidingMesh& mesh, const MeshState& now, Index dof) const;
+  double held_rate(Index dof) const { return nodal_.support(dof).proportional; }
+  std::optional<Index> unknown(const SlidingMesh& mesh, Index dof) const;
 
-  /// Force that a support exerts through a freedom it holds, with its derivatives in x, s and λ; 0 in one that is free.
+  /// Force that a support exerts through a degree of freedom it holds, with its derivatives in x, s and λ; 0 in one
+  /// that is free.
   struct Reaction {
     double value = 0.0;
     Vector dx{}, ds{};
     double dlambda = 0.0;
   };
-  Reaction reaction(const SlidingMesh& mesh, const MeshState& now, Index freedom) const;
+  Reaction reaction(const SlidingMesh& mesh, const MeshState& now, Index dof) const;
 
  private:
   friend class StructureBuilder;
@@ -130,9 +129,9 @@ class SlidingStructure final : public SlidingBody {
     double first_fraction, last_fraction;  // of the member, descending where the strand travels against it
     double elements;                       // that it asks for
   };
-  // A force on a node inside a member, by the freedoms x and z of the deck's mesh there.
+  // A force on a node inside a member, by the degrees of freedom x and z of the deck's mesh there.
   struct PointLoad {
-    std::array<Index, 2> freedom{};
+    std::array<Index, 2> dof{};
     std::array<Driven, 2> force{};
 
     PointForce at(double lambda) const {
@@ -145,9 +144,9 @@ class SlidingStructure final : public SlidingBody {
     Index node;
     double s;
   };
-  // An end of a strand: its freedoms x, z, rotation, and the stress-free angle.
+  // An end of a strand: its degrees of freedom x, z, rotation, and the stress-free angle.
   struct End {
-    std::array<Index, 3> freedom{};
+    std::array<Index, 3> dof{};
     double angle = 0.0;
   };
   struct Run {
@@ -186,18 +185,18 @@ class SlidingStructure final : public SlidingBody {
               const CarriesForceAlone& carries_force_alone) const;
   static Run reversed(const Run& run);
   Run joined(Run a, const Run& b, bool carries_force) const;
-  Index node_of(const End& end) const { return freedoms_[static_cast<std::size_t>(end.freedom[0])].node; }
+  Index node_of(const End& end) const { return dofs_[static_cast<std::size_t>(end.dof[0])].node; }
   PointLoad point_load(Index node) const;
-  // All ends of strands at the joint with this freedom, which an end has.
-  const std::vector<StrandEnd>& ends_at(Index freedom_z) const { return ends_at_joint_.at(freedom_z); }
-  double rest_value(Index freedom) const;  // of the mesh's unknown at rest: the position, where that is one
+  // All ends of strands at the joint with this degree of freedom, which an end has.
+  const std::vector<StrandEnd>& ends_at(Index dof_z) const { return ends_at_joint_.at(dof_z); }
+  double rest_value(Index dof) const;  // of the mesh's unknown at rest: the position, where that is one
   const Run& at(Index strand) const { return runs_[static_cast<std::size_t>(strand)]; }
 
   std::vector<Run> runs_;
   std::unordered_map<Index, std::vector<StrandEnd>> ends_at_joint_{};  // by its z; filled when runs are joined
   std::vector<Vec2> positions_;                                        // of the builder's nodes
-  std::vector<Index> first_freedom_;                                   // of the builder's nodes
-  std::vector<Structure::Meaning> freedoms_;
+  std::vector<Index> first_dof_;                                       // of the builder's nodes
+  std::vector<Structure::Meaning> dofs_;
   NodalTerms nodal_;
   Vec2 origin_ = Vec2::Zero();  // of the areas under pressure
   double length_scale_ = 1.0, force_scale_ = 0.0;
@@ -219,21 +218,22 @@ class PlaceObservable final : public Observable {
   double origin_ = 0.0;  // what is subtracted
 };
 
-/// Displacement or rotation of a joint's freedom, or what a support does to the structure through it, likewise.
+/// Displacement or rotation of a joint's degree of freedom, or what a support does to the structure through it,
+/// likewise.
 class JointObservable final : public Observable {
  public:
   enum class What { motion, reaction };
 
   /// `structure` must outlive this.
-  JointObservable(const SlidingStructure& structure, Index freedom, What what)
-      : structure_(structure), freedom_(freedom), what_(what) {}
+  JointObservable(const SlidingStructure& structure, Index dof, What what)
+      : structure_(structure), dof_(dof), what_(what) {}
 
   double value(const State& state) const override;
   Row gradient(const State& state) const override;
 
  private:
   const SlidingStructure& structure_;
-  Index freedom_;
+  Index dof_;
   What what_;
 };
 

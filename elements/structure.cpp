@@ -75,22 +75,22 @@ void Structure::gather(Index block, const Vector& x, double* u) const {
 
 void Structure::arrange() {
   const bool any_displaced = nodal_.has_displaced_supports();
-  const auto is_displaced = [this](Index freedom) { return nodal_.is_displaced(freedom); };
-  order_ = element_order(elements_, assembly_,
-                         [&](Index e) { return any_displaced && element_freedoms(e).any(is_displaced); });
+  const auto is_displaced = [this](Index dof) { return nodal_.is_displaced(dof); };
+  order_ =
+      element_order(elements_, assembly_, [&](Index e) { return any_displaced && element_dofs(e).any(is_displaced); });
 }
 
 double Structure::evaluate(const Element& element, Index block, const State& state, Local& out,
                            bool with_derivatives) const {
-  const ShiftedIndices unknowns = assembly_.unknowns(block), freedoms = element_freedoms(block);
+  const ShiftedIndices unknowns = assembly_.unknowns(block), dofs = element_dofs(block);
   const std::size_t n = unknowns.size();
   for (std::size_t i = 0; i < n; ++i)
-    out.u[i] = unknowns[i] >= 0 ? state.x[unknowns[i]] : nodal_.support(freedoms[i]).at(state.lambda);
+    out.u[i] = unknowns[i] >= 0 ? state.x[unknowns[i]] : nodal_.support(dofs[i]).at(state.lambda);
   const double energy = element.evaluate_at(out.u, state.lambda, out.f, with_derivatives ? out.K : nullptr,
                                             with_derivatives ? out.f_lambda : nullptr);
   for (std::size_t h = 0; h < n && with_derivatives; ++h) {
     if (unknowns[h] >= 0) continue;
-    const double rate = held_rate(freedoms[h]);
+    const double rate = held_rate(dofs[h]);
     for (std::size_t i = 0; i < n; ++i) out.f_lambda[i] += out.stiffness(i, h, n) * rate;
   }
   return energy;
@@ -156,8 +156,8 @@ void Structure::add_elements(const Vector& x, double* F, double* K) const {
 void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
   F.setZero();
   nodal_.add_forces(
-      state.lambda, [this](Index freedom) { return unknown_or_held(freedom); },
-      [&](Index freedom) { return value(state, freedom); }, F.data());
+      state.lambda, [this](Index dof) { return unknown_or_held(dof); }, [&](Index dof) { return value(state, dof); },
+      F.data());
   add_elements(state.x, F.data(), nullptr);
   for (const Index e : order_.driven) add_driven(elements_[e], e, state, F.data(), nullptr, nullptr);
   for (const ElementLoad& load : element_loads_)
@@ -169,23 +169,23 @@ void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
 // added elements nothing is known.
 std::vector<bool> Structure::translation_free() const {
   std::vector<bool> held(positions_.size());
-  const auto meaning_of = [&](Index freedom) { return meaning_of_freedom_[static_cast<std::size_t>(freedom)]; };
-  const auto node_of = [&](Index freedom) { return static_cast<std::size_t>(meaning_of(freedom).node); };
+  const auto meaning_of = [&](Index dof) { return meaning_of_dof_[static_cast<std::size_t>(dof)]; };
+  const auto node_of = [&](Index dof) { return static_cast<std::size_t>(meaning_of(dof).node); };
   for (Index e = 0; e < element_count(); ++e) {
-    const auto freedoms = element_freedoms(e);
-    const auto is_held = [&](Index freedom) {
-      const Freedom which = meaning_of(freedom).freedom;
-      return (which == Freedom::x || which == Freedom::z) && !unknown(freedom);
+    const auto dofs = element_dofs(e);
+    const auto is_held = [&](Index dof) {
+      const Dof which = meaning_of(dof).dof;
+      return (which == Dof::x || which == Dof::z) && !unknown(dof);
     };
     const auto loads = loads_of_element(e);
     const auto is_grounded = [this](std::uint32_t load) { return element_loads_[load].is_grounded; };
-    if (e >= first_added_ || freedoms.any(is_held) || std::any_of(loads.begin(), loads.end(), is_grounded))
-      for (std::size_t i = 0; i < freedoms.size(); ++i) held[node_of(freedoms[i])] = true;
+    if (e >= first_added_ || dofs.any(is_held) || std::any_of(loads.begin(), loads.end(), is_grounded))
+      for (std::size_t i = 0; i < dofs.size(); ++i) held[node_of(dofs[i])] = true;
   }
   std::vector<bool> result(static_cast<std::size_t>(assembly_.unknown_count()));
   for (std::size_t node = 0; node < held.size(); ++node) {
-    const auto x = unknown(freedom(static_cast<Index>(node), Freedom::x));
-    const auto z = unknown(freedom(static_cast<Index>(node), Freedom::z));
+    const auto x = unknown(dof(static_cast<Index>(node), Dof::x));
+    const auto z = unknown(dof(static_cast<Index>(node), Dof::z));
     if (!held[node] && x && z == *x + 1) result[static_cast<std::size_t>(*x)] = true;
   }
   return result;
@@ -196,15 +196,15 @@ void Structure::linearize(const State& state, Linearization& out) const {
   if (!out.pattern_of || out.K.cols() != n) {
     out.K = assembly_.pattern();
     out.translation_free = translation_free();
-    out.pattern_of = state.piece;
+    out.pattern_of = state.active_set;
   }
   out.F.setZero(n);
   out.F_lambda.setZero(n);
   double* values = out.K.valuePtr();
   std::fill(values, values + out.K.nonZeros(), 0.0);
   nodal_.linearize(
-      state.lambda, [this](Index freedom) { return unknown_or_held(freedom); },
-      [&](Index freedom) { return value(state, freedom); }, out);
+      state.lambda, [this](Index dof) { return unknown_or_held(dof); }, [&](Index dof) { return value(state, dof); },
+      out);
   add_elements(state.x, out.F.data(), values);
   const auto add = [&](const Element& element, Index block) {
     add_driven(element, block, state, out.F.data(), values, out.F_lambda.data());
@@ -218,7 +218,7 @@ double Structure::energy(const State& state) const {
   double energy = 0.0;
   for (Index e = 0; e < element_count(); ++e) energy += evaluate(elements_[e], e, state, local, false);
   for (const ElementLoad& load : element_loads_) energy += evaluate(*load.potential, load.element, state, local, false);
-  return energy + nodal_.energy(state.lambda, [&](Index freedom) { return value(state, freedom); });
+  return energy + nodal_.energy(state.lambda, [&](Index dof) { return value(state, dof); });
 }
 
 double Structure::force_roundoff() const {
@@ -226,65 +226,62 @@ double Structure::force_roundoff() const {
   linearize({.x = Vector::Zero(size({}))}, rest);
   double stiffness = 0.0;
   for (Index i = 0; i < rest.K.cols(); ++i)
-    if (meaning(i).freedom == Freedom::x || meaning(i).freedom == Freedom::z)
-      stiffness = std::max(stiffness, rest.K.coeff(i, i));
+    if (meaning(i).dof == Dof::x || meaning(i).dof == Dof::z) stiffness = std::max(stiffness, rest.K.coeff(i, i));
   return 0.1 * std::numeric_limits<double>::epsilon() * length_scale_ * stiffness;
 }
 
 // Means over all nodes and all rotations, held ones included: they count as zeros.
-double Structure::weight(Freedom kind) const {
+double Structure::weight(Dof kind) const {
   switch (kind) {
-    case Freedom::x:
-    case Freedom::z:
+    case Dof::x:
+    case Dof::z:
       return 1.0 / (double(positions_.size()) * length_scale_ * length_scale_);
-    case Freedom::rotation:
+    case Dof::rotation:
       return 1.0 / rotations_;
-    case Freedom::thickness:
-    case Freedom::thickness2:
+    case Dof::thickness:
+    case Dof::thickness2:
       return 0.0;
   }
   return 0.0;
 }
 
-Vector Structure::weights(const Piece&) const {
+Vector Structure::weights(const ActiveSet&) const {
   std::array<double, 5> of{};
-  for (std::size_t kind = 0; kind < of.size(); ++kind) of[kind] = weight(static_cast<Freedom>(kind));
+  for (std::size_t kind = 0; kind < of.size(); ++kind) of[kind] = weight(static_cast<Dof>(kind));
   Vector weights(size({}));
-  for (Index i = 0; i < weights.size(); ++i) weights[i] = of[static_cast<std::size_t>(meaning(i).freedom)];
+  for (Index i = 0; i < weights.size(); ++i) weights[i] = of[static_cast<std::size_t>(meaning(i).dof)];
   return weights;
 }
 
-std::vector<Index> Structure::turning_sets(const Piece&) const {
+std::vector<Index> Structure::turning_sets(const ActiveSet&) const {
   std::vector<Index> sets;
-  sets.reserve(freedom_of_unknown_.size());
-  for (const std::int32_t freedom : freedom_of_unknown_)
-    sets.push_back(turning_set_[static_cast<std::size_t>(freedom)]);
+  sets.reserve(dof_of_unknown_.size());
+  for (const std::int32_t dof : dof_of_unknown_) sets.push_back(turning_set_[static_cast<std::size_t>(dof)]);
   return sets;
 }
 
-double Structure::squared_motion_by_lambda(const Piece&) const {
+double Structure::squared_motion_by_lambda(const ActiveSet&) const {
   double sum = 0.0;
-  nodal_.for_each_moved_support(
-      [&](Index freedom, double rate) { sum += weight(meaning_of_freedom(freedom).freedom) * rate * rate; });
+  nodal_.for_each_moved_support([&](Index dof, double rate) { sum += weight(meaning_of_dof(dof).dof) * rate * rate; });
   return sum + heat_rate_ * heat_rate_;
 }
 
-std::optional<Index> Structure::unknown(Index freedom) const {
-  const Index i = unknown_of_freedom_[static_cast<std::size_t>(freedom)];
+std::optional<Index> Structure::unknown(Index dof) const {
+  const Index i = unknown_of_dof_[static_cast<std::size_t>(dof)];
   return i < 0 ? std::nullopt : std::optional(i);
 }
 
-double Structure::value(const State& state, Index freedom) const {
-  const Index i = unknown_of_freedom_[static_cast<std::size_t>(freedom)];
-  return i < 0 ? nodal_.support(freedom).at(state.lambda) : state.x[i];
+double Structure::value(const State& state, Index dof) const {
+  const Index i = unknown_of_dof_[static_cast<std::size_t>(dof)];
+  return i < 0 ? nodal_.support(dof).at(state.lambda) : state.x[i];
 }
 
 Vec2 Structure::current(const State& state, Index node) const {
-  return position(node) + Vec2(value(state, freedom(node, Freedom::x)), value(state, freedom(node, Freedom::z)));
+  return position(node) + Vec2(value(state, dof(node, Dof::x)), value(state, dof(node, Dof::z)));
 }
 
 Structure::Meaning Structure::meaning(Index unknown) const {
-  return meaning_of_freedom_[static_cast<std::size_t>(freedom_of_unknown_[static_cast<std::size_t>(unknown)])];
+  return meaning_of_dof_[static_cast<std::size_t>(dof_of_unknown_[static_cast<std::size_t>(unknown)])];
 }
 
 template <class ValueOf>
@@ -293,8 +290,8 @@ std::unique_ptr<Structure> Structure::updated_at(const ValueOf& value_of) const 
   Local local;
   moved->elements_ = {};
   for (Index e = 0; e < element_count(); ++e) {
-    const ShiftedIndices freedoms = element_freedoms(e);
-    for (std::size_t i = 0; i < freedoms.size(); ++i) local.u[i] = value_of(freedoms[i]);
+    const ShiftedIndices dofs = element_dofs(e);
+    for (std::size_t i = 0; i < dofs.size(); ++i) local.u[i] = value_of(dofs[i]);
     moved->elements_.add(elements_[e].updated(local.u));
   }
   moved->arrange();
@@ -306,7 +303,7 @@ std::unique_ptr<Structure> Structure::updated() const {
 }
 
 std::unique_ptr<Structure> Structure::updated(const State& state) const {
-  return updated_at([&](Index freedom) { return value(state, freedom); });
+  return updated_at([&](Index dof) { return value(state, dof); });
 }
 
 bool Structure::can_be_updated() const {
@@ -317,35 +314,35 @@ bool Structure::can_be_updated() const {
 }
 
 template <class Visit>
-void Structure::for_each_with(Index freedom, const Visit& visit) const {
-  const auto has = [&](Index e) { return element_freedoms(e).place_of(freedom) < element_freedoms(e).size(); };
+void Structure::for_each_with(Index dof, const Visit& visit) const {
+  const auto has = [&](Index e) { return element_dofs(e).place_of(dof) < element_dofs(e).size(); };
   for (Index e = 0; e < element_count(); ++e)
     if (has(e)) visit(elements_[e], e);
   for (const ElementLoad& load : element_loads_)
     if (has(load.element)) visit(*load.potential, load.element);
 }
 
-double Structure::reaction(const State& state, Index freedom) const {
-  if (unknown(freedom)) return 0.0;
+double Structure::reaction(const State& state, Index dof) const {
+  if (unknown(dof)) return 0.0;
   Local local;
-  double force = nodal_.support_force(freedom, state.lambda, [&](Index of) { return value(state, of); });
-  for_each_with(freedom, [&](const Element& element, Index block) {
+  double force = nodal_.support_force(dof, state.lambda, [&](Index of) { return value(state, of); });
+  for_each_with(dof, [&](const Element& element, Index block) {
     evaluate(element, block, state, local, false);
-    force += local.f[element_freedoms(block).place_of(freedom)];
+    force += local.f[element_dofs(block).place_of(dof)];
   });
   return force;
 }
 
-Row Structure::reaction_gradient(const State& state, Index freedom) const {
+Row Structure::reaction_gradient(const State& state, Index dof) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-  if (unknown(freedom)) return row;
+  if (unknown(dof)) return row;
   Local local;
   nodal_.add_support_force_gradient(
-      freedom, state.lambda, [this](Index of) { return unknown_or_held(of); },
-      [&](Index of) { return value(state, of); }, row.dx, row.dlambda);
-  for_each_with(freedom, [&](const Element& element, Index block) {
+      dof, state.lambda, [this](Index of) { return unknown_or_held(of); }, [&](Index of) { return value(state, of); },
+      row.dx, row.dlambda);
+  for_each_with(dof, [&](const Element& element, Index block) {
     evaluate(element, block, state, local, true);
-    const std::size_t n = element_freedoms(block).size(), i = element_freedoms(block).place_of(freedom);
+    const std::size_t n = element_dofs(block).size(), i = element_dofs(block).place_of(dof);
     const ShiftedIndices unknowns = assembly_.unknowns(block);
     for (std::size_t j = 0; j < n; ++j)
       if (unknowns[j] >= 0) row.dx[unknowns[j]] += local.stiffness(i, j, n);

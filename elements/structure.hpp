@@ -26,7 +26,7 @@ namespace arcwall {
 
 /// Kinds of degrees of freedom. Each joint has x and z. Rigidly joined members share a rotation. Members that continue
 /// straight share the thickness unknowns e and ξ of the Essenburg theory (see EssenburgNode).
-enum class Freedom : std::uint8_t { x, z, rotation, thickness, thickness2 };
+enum class Dof : std::uint8_t { x, z, rotation, thickness, thickness2 };
 
 /// Theories of members: beams, and a bar (truss).
 enum class Theory { euler_bernoulli, elastica, reissner, essenburg, truss };
@@ -55,7 +55,7 @@ struct MemberDescription {
 };
 
 /// Indices of the thickness degrees of freedom of a section.
-struct ThicknessFreedoms {
+struct ThicknessDofs {
   Index e = 0, xi = 0;
 };
 
@@ -63,7 +63,7 @@ struct ThicknessFreedoms {
 struct MemberSection {
   Index node = 0;                                  ///< in the structure
   std::optional<Index> rotation{};                 ///< degree of freedom; empty for a bar
-  std::optional<ThicknessFreedoms> thickness{};    ///< essenburg
+  std::optional<ThicknessDofs> thickness{};        ///< essenburg
   AxisPoint axis{}, shape{};                       ///< without and with imperfection
   QuadraticTerm quadratic = QuadraticTerm::fixed;  ///< essenburg
   double fraction = 0.0;                           ///< of the member's arc length, in [0, 1]
@@ -84,8 +84,8 @@ struct MemberMesh {
   std::vector<Index> middle_rotations{};          ///< their degrees of freedom, same size
   double length = 0.0;                            ///< of the axis [length]
   // Of the Essenburg theory alone, else empty:
-  std::vector<ThicknessFreedoms> thickness{}, middle_thickness{};  ///< at each node, and at each middle node
-  std::vector<AxisPoint> middle_axis{}, middle_shape{};            ///< at the middle nodes
+  std::vector<ThicknessDofs> thickness{}, middle_thickness{};  ///< at each node, and at each middle node
+  std::vector<AxisPoint> middle_axis{}, middle_shape{};        ///< at the middle nodes
   QuadraticTerm quadratic = QuadraticTerm::fixed;
 
   double fraction(std::size_t k) const { return double(k) / double(nodes.size() - 1); }
@@ -111,17 +111,17 @@ class StructureBuilder;
 /// StructureBuilder.
 class Structure final : public System {
  public:
-  Index size(const Piece&) const override { return assembly_.unknown_count(); }
+  Index size(const ActiveSet&) const override { return assembly_.unknown_count(); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
 
   /// Returns the weights of ds² = mean over nodes of |Δu|²/L² + mean of Δθ², L = length_scale().
-  Vector weights(const Piece&) const override;
+  Vector weights(const ActiveSet&) const override;
 
-  std::vector<Index> turning_sets(const Piece&) const override;
+  std::vector<Index> turning_sets(const ActiveSet&) const override;
 
-  double squared_motion_by_lambda(const Piece&) const override;
+  double squared_motion_by_lambda(const ActiveSet&) const override;
 
   /// Returns the diagonal of the bounding box of the stress-free structure [length].
   double length_scale() const { return length_scale_; }
@@ -137,18 +137,16 @@ class Structure final : public System {
   Index node_count() const { return static_cast<Index>(positions_.size()); }
   const Vec2& position(Index node) const { return positions_[static_cast<std::size_t>(node)]; }  ///< stress-free
   /// Returns the degree of freedom of a node in x or z.
-  Index freedom(Index node, Freedom which) const {
-    return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z);
-  }
+  Index dof(Index node, Dof which) const { return first_dof_[static_cast<std::size_t>(node)] + (which == Dof::z); }
 
   /// Returns the unknown of a degree of freedom; empty if it is prescribed.
-  std::optional<Index> unknown(Index freedom) const;
+  std::optional<Index> unknown(Index dof) const;
 
   /// Returns the displacement [length] or rotation [rad], free or prescribed.
-  double value(const State& state, Index freedom) const;
+  double value(const State& state, Index dof) const;
 
   /// Returns ∂value/∂λ at fixed unknowns; 0 if the degree of freedom is not prescribed.
-  double held_rate(Index freedom) const { return nodal_.support(freedom).proportional; }
+  double held_rate(Index dof) const { return nodal_.support(dof).proportional; }
 
   /// Returns the current position of a node [length].
   Vec2 current(const State& state, Index node) const;
@@ -156,15 +154,15 @@ class Structure final : public System {
   /// Stores the node and the kind of a degree of freedom.
   struct Meaning {
     std::int32_t node;
-    Freedom freedom;
+    Dof dof;
   };
   Meaning meaning(Index unknown) const;
-  Meaning meaning_of_freedom(Index freedom) const { return meaning_of_freedom_[static_cast<std::size_t>(freedom)]; }
+  Meaning meaning_of_dof(Index dof) const { return meaning_of_dof_[static_cast<std::size_t>(dof)]; }
 
   /// Returns the support reaction on the structure in a degree of freedom [force or force·length]; 0 if it is free.
   /// Excludes contact forces on the supported node itself.
-  double reaction(const State& state, Index freedom) const;
-  Row reaction_gradient(const State& state, Index freedom) const;
+  double reaction(const State& state, Index dof) const;
+  Row reaction_gradient(const State& state, Index dof) const;
 
   // --- elements and terms, for other assemblies ----------------------------------------------------------------------
 
@@ -173,7 +171,7 @@ class Structure final : public System {
   const Element& element(Index e) const { return elements_[e]; }
 
   /// Returns the degrees of freedom of an element's local unknowns.
-  ShiftedIndices element_freedoms(Index e) const { return element_freedoms_[e]; }
+  ShiftedIndices element_dofs(Index e) const { return element_dofs_[e]; }
 
   /// Stores a load or a foundation along an element; its potential has the element's unknowns.
   struct ElementLoad {
@@ -207,44 +205,45 @@ class Structure final : public System {
 
   Structure(const Structure&) = default;
   Structure(Index unknowns, const IndexLists& blocks) : assembly_(unknowns, blocks) {}
-  void arrange();                     // what follows from the elements
-  double weight(Freedom kind) const;  // in the path metric
+  void arrange();                 // what follows from the elements
+  double weight(Dof kind) const;  // in the path metric
   template <class ValueOf>
   std::unique_ptr<Structure> updated_at(const ValueOf& value_of) const;
   std::vector<bool> translation_free() const;                  // see Linearization
-  void gather(Index block, const Vector& x, double* u) const;  // held freedoms 0
+  void gather(Index block, const Vector& x, double* u) const;  // held degrees of freedom 0
   struct Local;
-  // Evaluates an element with its held freedoms at their values. If derivatives are asked for, `f_lambda` is that at
-  // fixed unknowns, to which the rates of held freedoms belong.
+  // Evaluates an element with its held degrees of freedom at their values. If derivatives are asked for, `f_lambda` is
+  // that at fixed unknowns, to which the rates of held degrees of freedom belong.
   double evaluate(const Element& element, Index block, const State& state, Local& out, bool with_derivatives) const;
   // Adds an element that depends on λ. Where K is not null, its stiffness goes to the values of K's matrix.
   void add_driven(const Element& element, Index block, const State& state, double* F, double* K,
                   double* F_lambda) const;
-  // Calls visit(element, block) for each element that has the freedom, and for each load along such an element.
+  // Calls visit(element, block) for each element that has the degree of freedom, and for each load along such an
+  // element.
   template <class Visit>
-  void for_each_with(Index freedom, const Visit& visit) const;
+  void for_each_with(Index dof, const Visit& visit) const;
   // Adds the forces of elements and, where K is not null, their stiffness to the values of K's matrix.
   void add(const ElementOrder::Four& four, const ClassicBeamLanes& beams, const Vector& x, double* F, double* K) const;
   void add_elements(const Vector& x, double* F, double* K) const;
-  Index unknown_or_held(Index freedom) const { return unknown_of_freedom_[static_cast<std::size_t>(freedom)]; }
+  Index unknown_or_held(Index dof) const { return unknown_of_dof_[static_cast<std::size_t>(dof)]; }
 
   std::vector<Vec2> positions_;
-  std::vector<Index> first_freedom_;  // x of each node; z follows
+  std::vector<Index> first_dof_;  // x of each node; z follows
   std::vector<MemberMesh> members_;
-  std::vector<std::int32_t> unknown_of_freedom_;  // −1: held
-  std::vector<Meaning> meaning_of_freedom_;
-  std::vector<std::int32_t> freedom_of_unknown_;
+  std::vector<std::int32_t> unknown_of_dof_;  // −1: held
+  std::vector<Meaning> meaning_of_dof_;
+  std::vector<std::int32_t> dof_of_unknown_;
   ElementList elements_;   // element e is block e of the assembly
   Index first_added_ = 0;  // the first element that no member has
   ElementOrder order_;
-  ShiftedLists element_freedoms_;
+  ShiftedLists element_dofs_;
   std::vector<ElementLoad> element_loads_;
   std::vector<std::uint32_t> loads_by_element_, first_load_of_element_;  // empty without loads
   NodalTerms nodal_;
   BlockAssembly assembly_;
   double rotations_ = 1.0;  // how many there are
   double length_scale_ = 1.0, force_scale_ = 0.0, heat_rate_ = 0.0;
-  std::vector<std::int32_t> turning_set_;  // of each freedom
+  std::vector<std::int32_t> turning_set_;  // of each degree of freedom
 };
 
 /// Collects the description of a structure; build() creates it.
@@ -264,18 +263,16 @@ class StructureBuilder {
   std::optional<Index> shared_rotation(Index joint) const { return shared_rotation_[static_cast<std::size_t>(joint)]; }
 
   /// Returns the thickness degrees of freedom of the member ends at a joint; may be empty.
-  std::vector<ThicknessFreedoms> thickness(Index joint) const;
+  std::vector<ThicknessDofs> thickness(Index joint) const;
 
   /// Returns the degree of freedom of a node in x or z.
-  Index freedom(Index node, Freedom which) const {
-    return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z);
-  }
+  Index dof(Index node, Dof which) const { return first_dof_[static_cast<std::size_t>(node)] + (which == Dof::z); }
 
   /// Prescribes a degree of freedom: displacement [length] or rotation [rad] from the stress-free state.
-  void fix(Index freedom, const Driven& value = {}) { nodal_.hold(freedom, value); }
+  void fix(Index dof, const Driven& value = {}) { nodal_.hold(dof, value); }
 
   /// Adds a linear spring to the ground, stress-free with the structure [force/length or force·length].
-  void add_ground_stiffness(Index freedom, double stiffness) { nodal_.add_ground_stiffness(freedom, stiffness); }
+  void add_ground_stiffness(Index dof, double stiffness) { nodal_.add_ground_stiffness(dof, stiffness); }
 
   /// Adds a linear spring between two degrees of freedom: one is prescribed, or both belong to members.
   void add_spring(Index first, Index second, double stiffness) { nodal_.add_spring(first, second, stiffness); }
@@ -286,7 +283,7 @@ class StructureBuilder {
   }
 
   /// Adds a load [force], or a moment [force·length] on a rotation, positive in the degree of freedom.
-  void add_load(Index freedom, double value, LoadKind kind);
+  void add_load(Index dof, double value, LoadKind kind);
 
   /// Adds a dead load along a member, by length of the stress-free axis [force/length].
   void add_distributed_load(Index member, const Vec2& load, LoadKind kind, LoadFrame frame = LoadFrame::global);
@@ -308,11 +305,11 @@ class StructureBuilder {
   void add_foundation(Index member, const Vec2& stiffness);
 
   /// Adds a nonlinear foundation in x or z; the forces of its law are by length [force/length].
-  void add_foundation(Index member, Freedom direction, std::shared_ptr<const SpringLaw> law);
+  void add_foundation(Index member, Dof direction, std::shared_ptr<const SpringLaw> law);
 
   /// Adds an element between degrees of freedom of members, in the order of its unknowns; at most
   /// Element::max_unknowns. Only for build(), not for build_sliding(); find_mechanism() ignores it.
-  void add_element(std::shared_ptr<const Element> element, std::vector<Index> freedoms);
+  void add_element(std::shared_ptr<const Element> element, std::vector<Index> dofs);
 
   /// Returns the structure. `ramp`: scale the constant loads and prescribed values with λ and omit the proportional
   /// ones; a path from λ = 0 to 1 then applies the preload.
@@ -336,7 +333,7 @@ class StructureBuilder {
 
   struct AddedElement {
     std::shared_ptr<const Element> element;
-    std::vector<Index> freedoms;
+    std::vector<Index> dofs;
   };
 
   struct EndThickness {
@@ -344,27 +341,27 @@ class StructureBuilder {
     bool hinged;
     double angle, height;  // of the axis, of the section
     QuadraticTerm quadratic;
-    ThicknessFreedoms freedoms;
+    ThicknessDofs dofs;
   };
 
   // The greatest proportional load, moments divided by the length.
   double force_scale(const NodalTerms& terms, double length) const;
-  // Says of each node whether a load, a support or a spring acts on one of its freedoms.
+  // Says of each node whether a load, a support or a spring acts on one of its degrees of freedom.
   std::vector<bool> nodes_with_terms() const;
   bool carries_force_alone(Index node, Index rotation) const;  // of the terms that a node may have
   Index add_node(const Vec2& position);
-  Index add_freedom(Index node, Freedom which);
+  Index add_dof(Index node, Dof which);
   void add_middle_node(const MemberDescription& member, const ImperfectAxis& shape, int element, MemberMesh& mesh);
   Index end_rotation(Index joint, bool hinged);
-  ThicknessFreedoms add_thickness(Index node);
-  ThicknessFreedoms end_thickness(Index joint, const MemberDescription& member, double angle, bool hinged);
-  std::vector<Index> element_freedoms(const MemberMesh& mesh, std::size_t element) const;
+  ThicknessDofs add_thickness(Index node);
+  ThicknessDofs end_thickness(Index joint, const MemberDescription& member, double angle, bool hinged);
+  std::vector<Index> element_dofs(const MemberMesh& mesh, std::size_t element) const;
 
   std::vector<Vec2> positions_;
-  std::vector<Index> first_freedom_;
+  std::vector<Index> first_dof_;
   std::vector<std::optional<Index>> shared_rotation_;
   std::vector<EndThickness> end_thickness_;
-  std::vector<Structure::Meaning> freedoms_;
+  std::vector<Structure::Meaning> dofs_;
   std::vector<MemberDescription> descriptions_;
   std::vector<MemberMesh> meshes_;
   std::vector<Index> first_element_;  // of each member

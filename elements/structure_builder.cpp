@@ -28,50 +28,49 @@ Index StructureBuilder::add_node(const Vec2& position) {
   const auto node = static_cast<Index>(positions_.size());
   positions_.push_back(position);
   shared_rotation_.push_back(std::nullopt);
-  first_freedom_.push_back(add_freedom(node, Freedom::x));
-  add_freedom(node, Freedom::z);
+  first_dof_.push_back(add_dof(node, Dof::x));
+  add_dof(node, Dof::z);
   return node;
 }
 
-Index StructureBuilder::add_freedom(Index node, Freedom which) {
-  freedoms_.push_back({.node = static_cast<std::int32_t>(node), .freedom = which});
-  return static_cast<Index>(freedoms_.size()) - 1;
+Index StructureBuilder::add_dof(Index node, Dof which) {
+  dofs_.push_back({.node = static_cast<std::int32_t>(node), .dof = which});
+  return static_cast<Index>(dofs_.size()) - 1;
 }
 
 Index StructureBuilder::end_rotation(Index joint, bool hinged) {
-  if (hinged) return add_freedom(joint, Freedom::rotation);
+  if (hinged) return add_dof(joint, Dof::rotation);
   auto& shared = shared_rotation_[static_cast<std::size_t>(joint)];
-  if (!shared) shared = add_freedom(joint, Freedom::rotation);
+  if (!shared) shared = add_dof(joint, Dof::rotation);
   return *shared;
 }
 
-ThicknessFreedoms StructureBuilder::add_thickness(Index node) {
-  const Index e = add_freedom(node, Freedom::thickness);
-  return {.e = e, .xi = add_freedom(node, Freedom::thickness2)};
+ThicknessDofs StructureBuilder::add_thickness(Index node) {
+  const Index e = add_dof(node, Dof::thickness);
+  return {.e = e, .xi = add_dof(node, Dof::thickness2)};
 }
 
 // A beam that goes on straight with the same section has one thickness at its joint.
-ThicknessFreedoms StructureBuilder::end_thickness(Index joint, const MemberDescription& member, double angle,
-                                                  bool hinged) {
+ThicknessDofs StructureBuilder::end_thickness(Index joint, const MemberDescription& member, double angle, bool hinged) {
   constexpr double straight = 1e-9;  // [rad]
   const double height = member.section.height.value_or(0.0);
   for (const EndThickness& other : end_thickness_)
     if (other.joint == joint && !other.hinged && !hinged && other.height == height &&
         other.quadratic == member.quadratic && std::abs(std::remainder(other.angle - angle, 2.0 * pi)) <= straight)
-      return other.freedoms;
+      return other.dofs;
   end_thickness_.push_back({.joint = joint,
                             .hinged = hinged,
                             .angle = angle,
                             .height = height,
                             .quadratic = member.quadratic,
-                            .freedoms = add_thickness(joint)});
-  return end_thickness_.back().freedoms;
+                            .dofs = add_thickness(joint)});
+  return end_thickness_.back().dofs;
 }
 
-std::vector<ThicknessFreedoms> StructureBuilder::thickness(Index joint) const {
-  std::vector<ThicknessFreedoms> all;
+std::vector<ThicknessDofs> StructureBuilder::thickness(Index joint) const {
+  std::vector<ThicknessDofs> all;
   for (const EndThickness& end : end_thickness_)
-    if (end.joint == joint) all.push_back(end.freedoms);
+    if (end.joint == joint) all.push_back(end.dofs);
   return all;
 }
 
@@ -110,8 +109,7 @@ Index StructureBuilder::add_member(MemberDescription member) {
     const bool hinged = (first && member.hinge_from) || (last && member.hinge_to);
     std::optional<Index> rotation;
     if (rotates)
-      rotation =
-          first || last ? end_rotation(mesh.nodes.back(), hinged) : add_freedom(mesh.nodes.back(), Freedom::rotation);
+      rotation = first || last ? end_rotation(mesh.nodes.back(), hinged) : add_dof(mesh.nodes.back(), Dof::rotation);
     mesh.rotations.push_back(rotation);
     if (thickens)
       mesh.thickness.push_back(first || last ? end_thickness(mesh.nodes.back(), member, place.angle, hinged)
@@ -131,15 +129,15 @@ void StructureBuilder::add_middle_node(const MemberDescription& member, const Im
   const double s = mesh.length * (element + 0.5) / member.elements;
   const AxisPoint point = shape.at(s);
   mesh.middle_nodes.push_back(add_node(point.position));
-  mesh.middle_rotations.push_back(add_freedom(mesh.middle_nodes.back(), Freedom::rotation));
+  mesh.middle_rotations.push_back(add_dof(mesh.middle_nodes.back(), Dof::rotation));
   if (member.theory != Theory::essenburg) return;
   mesh.middle_thickness.push_back(add_thickness(mesh.middle_nodes.back()));
   mesh.middle_axis.push_back(member.axis->at(s));
   mesh.middle_shape.push_back(point);
 }
 
-void StructureBuilder::add_load(Index freedom, double value, LoadKind kind) {
-  nodal_.add_load(freedom, kind == LoadKind::proportional ? Driven{.proportional = value} : Driven{.constant = value});
+void StructureBuilder::add_load(Index dof, double value, LoadKind kind) {
+  nodal_.add_load(dof, kind == LoadKind::proportional ? Driven{.proportional = value} : Driven{.constant = value});
 }
 
 void StructureBuilder::add_distributed_load(Index member, const Vec2& load, LoadKind kind, LoadFrame frame) {
@@ -183,8 +181,8 @@ std::vector<NodalTerms::PressedEnd> StructureBuilder::pressed_ends() const {
   for (std::size_t node = 0; node < excess.size(); ++node) {
     const auto joint = static_cast<Index>(node);
     if (!excess[node].is_zero())
-      ends.push_back({.x = freedom(joint, Freedom::x),
-                      .z = freedom(joint, Freedom::z),
+      ends.push_back({.x = dof(joint, Dof::x),
+                      .z = dof(joint, Dof::z),
                       .rest = positions_[node] - origin(),
                       .excess = excess[node]});
   }
@@ -193,7 +191,7 @@ std::vector<NodalTerms::PressedEnd> StructureBuilder::pressed_ends() const {
 
 std::optional<Index> StructureBuilder::open_pressed_joint() const {
   for (const NodalTerms::PressedEnd& end : pressed_ends())
-    if (!nodal_.is_held(end.x) && !nodal_.is_held(end.z)) return freedoms_[static_cast<std::size_t>(end.x)].node;
+    if (!nodal_.is_held(end.x) && !nodal_.is_held(end.z)) return dofs_[static_cast<std::size_t>(end.x)].node;
   return std::nullopt;
 }
 
@@ -208,72 +206,69 @@ void StructureBuilder::add_foundation(Index member, const Vec2& stiffness) {
   foundations_[static_cast<std::size_t>(member)].add(stiffness);
 }
 
-void StructureBuilder::add_foundation(Index member, Freedom direction, std::shared_ptr<const SpringLaw> law) {
+void StructureBuilder::add_foundation(Index member, Dof direction, std::shared_ptr<const SpringLaw> law) {
   assert(descriptions_[static_cast<std::size_t>(member)].theory != Theory::truss);
-  assert(direction == Freedom::x || direction == Freedom::z);
-  foundations_[static_cast<std::size_t>(member)].add(direction == Freedom::x ? 0 : 1, std::move(law));
+  assert(direction == Dof::x || direction == Dof::z);
+  foundations_[static_cast<std::size_t>(member)].add(direction == Dof::x ? 0 : 1, std::move(law));
 }
 
-void StructureBuilder::add_element(std::shared_ptr<const Element> element, std::vector<Index> freedoms) {
-  added_elements_.push_back({.element = std::move(element), .freedoms = std::move(freedoms)});
+void StructureBuilder::add_element(std::shared_ptr<const Element> element, std::vector<Index> dofs) {
+  added_elements_.push_back({.element = std::move(element), .dofs = std::move(dofs)});
 }
 
-std::vector<Index> StructureBuilder::element_freedoms(const MemberMesh& mesh, std::size_t k) const {
-  std::vector<Index> freedoms;
-  const auto add = [&](Index node, std::optional<Index> rotation, const std::vector<ThicknessFreedoms>& thickness,
+std::vector<Index> StructureBuilder::element_dofs(const MemberMesh& mesh, std::size_t k) const {
+  std::vector<Index> dofs;
+  const auto add = [&](Index node, std::optional<Index> rotation, const std::vector<ThicknessDofs>& thickness,
                        std::size_t at) {
-    freedoms.push_back(freedom(node, Freedom::x));
-    freedoms.push_back(freedom(node, Freedom::z));
-    if (rotation) freedoms.push_back(*rotation);
-    if (!thickness.empty()) freedoms.insert(freedoms.end(), {thickness[at].e, thickness[at].xi});
+    dofs.push_back(dof(node, Dof::x));
+    dofs.push_back(dof(node, Dof::z));
+    if (rotation) dofs.push_back(*rotation);
+    if (!thickness.empty()) dofs.insert(dofs.end(), {thickness[at].e, thickness[at].xi});
   };
   add(mesh.nodes[k], mesh.rotations[k], mesh.thickness, k);
   if (!mesh.middle_nodes.empty()) add(mesh.middle_nodes[k], mesh.middle_rotations[k], mesh.middle_thickness, k);
   add(mesh.nodes[k + 1], mesh.rotations[k + 1], mesh.thickness, k + 1);
-  return freedoms;
+  return dofs;
 }
 
 double StructureBuilder::force_scale(const NodalTerms& terms, double length) const {
-  return terms.greatest_proportional_load([&](Index freedom) {
-    return freedoms_[static_cast<std::size_t>(freedom)].freedom == Freedom::rotation ? length : 1.0;
-  });
+  return terms.greatest_proportional_load(
+      [&](Index dof) { return dofs_[static_cast<std::size_t>(dof)].dof == Dof::rotation ? length : 1.0; });
 }
 
 std::vector<bool> StructureBuilder::nodes_with_terms() const {
   std::vector<bool> found(positions_.size(), false);
-  for (std::size_t i = 0; i < freedoms_.size(); ++i) {
-    const auto freedom = static_cast<Index>(i);
-    if (!nodal_.load(freedom).is_zero() || nodal_.is_held(freedom) || nodal_.ground_stiffness(freedom) != 0.0)
-      found[static_cast<std::size_t>(freedoms_[i].node)] = true;
+  for (std::size_t i = 0; i < dofs_.size(); ++i) {
+    const auto dof = static_cast<Index>(i);
+    if (!nodal_.load(dof).is_zero() || nodal_.is_held(dof) || nodal_.ground_stiffness(dof) != 0.0)
+      found[static_cast<std::size_t>(dofs_[i].node)] = true;
   }
   for (const NodalTerms::Spring& spring : nodal_.springs())
-    for (const Index freedom : {spring.first, spring.second})
-      found[static_cast<std::size_t>(freedoms_[static_cast<std::size_t>(freedom)].node)] = true;
+    for (const Index dof : {spring.first, spring.second})
+      found[static_cast<std::size_t>(dofs_[static_cast<std::size_t>(dof)].node)] = true;
   for (const NodalTerms::LawSpring& spring : nodal_.law_springs())
-    for (const Index freedom : {spring.first.value_or(spring.second), spring.second})
-      found[static_cast<std::size_t>(freedoms_[static_cast<std::size_t>(freedom)].node)] = true;
+    for (const Index dof : {spring.first.value_or(spring.second), spring.second})
+      found[static_cast<std::size_t>(dofs_[static_cast<std::size_t>(dof)].node)] = true;
   return found;
 }
 
 bool StructureBuilder::carries_force_alone(Index node, Index rotation) const {
-  const auto is_free = [&](Index freedom) {
-    const auto joins = [&](const NodalTerms::Spring& spring) {
-      return spring.first == freedom || spring.second == freedom;
-    };
+  const auto is_free = [&](Index dof) {
+    const auto joins = [&](const NodalTerms::Spring& spring) { return spring.first == dof || spring.second == dof; };
     const auto& springs = nodal_.springs();
     const auto& others = nodal_.law_springs();
-    const auto has = [&](const NodalTerms::LawSpring& spring) { return spring.joins(freedom); };
+    const auto has = [&](const NodalTerms::LawSpring& spring) { return spring.joins(dof); };
     if (std::any_of(others.begin(), others.end(), has)) return false;
-    return !nodal_.is_held(freedom) && nodal_.ground_stiffness(freedom) == 0.0 &&
+    return !nodal_.is_held(dof) && nodal_.ground_stiffness(dof) == 0.0 &&
            std::none_of(springs.begin(), springs.end(), joins);
   };
-  return is_free(freedom(node, Freedom::x)) && is_free(freedom(node, Freedom::z)) && is_free(rotation) &&
+  return is_free(dof(node, Dof::x)) && is_free(dof(node, Dof::z)) && is_free(rotation) &&
          nodal_.load(rotation).is_zero();
 }
 
-// Of each freedom the set with which it may turn; −1 of those that do not.
+// Of each degree of freedom the set with which it may turn; −1 of those that do not.
 std::vector<std::int32_t> StructureBuilder::turning_sets() const {
-  TurningSets sets(freedoms_.size());
+  TurningSets sets(dofs_.size());
   sets.add(nodal_);
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     const MemberMesh& mesh = meshes_[m];
@@ -285,55 +280,54 @@ std::vector<std::int32_t> StructureBuilder::turning_sets() const {
     for (const Index rotation : mesh.middle_rotations) sets.join(rotation, *mesh.rotations.front());
   }
   for (const AddedElement& added : added_elements_)
-    for (const Index freedom : added.freedoms) sets.hold(freedom);
-  std::vector<std::int32_t> result(freedoms_.size(), -1);
+    for (const Index dof : added.dofs) sets.hold(dof);
+  std::vector<std::int32_t> result(dofs_.size(), -1);
   for (std::size_t i = 0; i < result.size(); ++i)
-    if (freedoms_[i].freedom == Freedom::rotation)
-      result[i] = static_cast<std::int32_t>(sets.of(static_cast<Index>(i)));
+    if (dofs_[i].dof == Dof::rotation) result[i] = static_cast<std::int32_t>(sets.of(static_cast<Index>(i)));
   return result;
 }
 
 // The structure without elements, loads and supports: its unknowns are numbered along the members, so that neighbours
 // stay near.
 std::unique_ptr<Structure> StructureBuilder::numbered() const {
-  std::vector<std::int32_t> unknown_of_freedom(freedoms_.size(), -1), freedom_of_unknown;
-  const auto number = [&](Index freedom) {
-    auto& unknown = unknown_of_freedom[static_cast<std::size_t>(freedom)];
-    if (unknown >= 0 || nodal_.is_held(freedom)) return;
-    unknown = static_cast<std::int32_t>(freedom_of_unknown.size());
-    freedom_of_unknown.push_back(static_cast<std::int32_t>(freedom));
+  std::vector<std::int32_t> unknown_of_dof(dofs_.size(), -1), dof_of_unknown;
+  const auto number = [&](Index dof) {
+    auto& unknown = unknown_of_dof[static_cast<std::size_t>(dof)];
+    if (unknown >= 0 || nodal_.is_held(dof)) return;
+    unknown = static_cast<std::int32_t>(dof_of_unknown.size());
+    dof_of_unknown.push_back(static_cast<std::int32_t>(dof));
   };
-  ShiftedLists freedoms_of_elements;
+  ShiftedLists dofs_of_elements;
   IndexLists blocks;
   const auto add_block = [&](std::vector<Index> of_element) {
-    freedoms_of_elements.add(of_element);
-    for (Index& freedom : of_element) {
-      number(freedom);
-      freedom = unknown_of_freedom[static_cast<std::size_t>(freedom)];
+    dofs_of_elements.add(of_element);
+    for (Index& dof : of_element) {
+      number(dof);
+      dof = unknown_of_dof[static_cast<std::size_t>(dof)];
     }
     blocks.push_back(std::move(of_element));
   };
   for (const MemberMesh& mesh : meshes_)
-    for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) add_block(element_freedoms(mesh, k));
-  for (const AddedElement& added : added_elements_) add_block(added.freedoms);
+    for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) add_block(element_dofs(mesh, k));
+  for (const AddedElement& added : added_elements_) add_block(added.dofs);
   for (const NodalTerms::Spring& spring : nodal_.springs()) add_block({spring.first, spring.second});
   for (const NodalTerms::LawSpring& spring : nodal_.law_springs())
     if (spring.first) add_block({*spring.first, spring.second});
 
-  auto structure = std::unique_ptr<Structure>(new Structure(static_cast<Index>(freedom_of_unknown.size()), blocks));
+  auto structure = std::unique_ptr<Structure>(new Structure(static_cast<Index>(dof_of_unknown.size()), blocks));
   structure->positions_ = positions_;
-  structure->first_freedom_ = first_freedom_;
+  structure->first_dof_ = first_dof_;
   structure->members_ = meshes_;
-  freedom_of_unknown.shrink_to_fit();
-  freedoms_of_elements.complete();
-  structure->unknown_of_freedom_ = std::move(unknown_of_freedom);
-  structure->freedom_of_unknown_ = std::move(freedom_of_unknown);
-  structure->meaning_of_freedom_ = freedoms_;
-  structure->element_freedoms_ = std::move(freedoms_of_elements);
+  dof_of_unknown.shrink_to_fit();
+  dofs_of_elements.complete();
+  structure->unknown_of_dof_ = std::move(unknown_of_dof);
+  structure->dof_of_unknown_ = std::move(dof_of_unknown);
+  structure->meaning_of_dof_ = dofs_;
+  structure->element_dofs_ = std::move(dofs_of_elements);
   structure->turning_set_ = turning_sets();
   structure->length_scale_ = box_diagonal(positions_);
-  const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.freedom == Freedom::rotation; };
-  structure->rotations_ = static_cast<double>(std::count_if(freedoms_.begin(), freedoms_.end(), is_rotation));
+  const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.dof == Dof::rotation; };
+  structure->rotations_ = static_cast<double>(std::count_if(dofs_.begin(), dofs_.end(), is_rotation));
   return structure;
 }
 

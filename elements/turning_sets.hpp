@@ -8,22 +8,20 @@
 
 namespace arcwall {
 
-/// Which freedoms may all grow by 2π while F stays what it is. Slender beams see the direction of a section alone, so
-/// that every rotation is a set by itself; what sees the difference of two makes one set of both; what sees a rotation
-/// itself makes it none.
+/// Which degrees of freedom may all grow by 2π while F stays what it is. Slender beams see the direction of a section
+/// alone, so that every rotation is a set by itself; what sees the difference of two makes one set of both; what sees a
+/// rotation itself makes it none.
 class TurningSets {
  public:
-  explicit TurningSets(std::size_t freedoms) : first_(freedoms + 1) {
-    std::iota(first_.begin(), first_.end(), Index{0});
-  }
+  explicit TurningSets(std::size_t dofs) : first_(dofs + 1) { std::iota(first_.begin(), first_.end(), Index{0}); }
 
   void join(Index a, Index b) { first_[index(root(a + 1))] = root(b + 1); }
-  void hold(Index freedom) { first_[index(root(freedom + 1))] = root(ground); }
+  void hold(Index dof) { first_[index(root(dof + 1))] = root(ground); }
 
   /// What supports and springs do.
   void add(const NodalTerms& terms) {
-    for (Index freedom = 0; freedom + 1 < static_cast<Index>(first_.size()); ++freedom)
-      if (terms.is_held(freedom) || terms.ground_stiffness(freedom) != 0.0) hold(freedom);
+    for (Index dof = 0; dof + 1 < static_cast<Index>(first_.size()); ++dof)
+      if (terms.is_held(dof) || terms.ground_stiffness(dof) != 0.0) hold(dof);
     for (const NodalTerms::Spring& spring : terms.springs()) join(spring.first, spring.second);
     for (const NodalTerms::LawSpring& spring : terms.law_springs()) {
       if (spring.first)
@@ -33,14 +31,14 @@ class TurningSets {
     }
   }
 
-  /// A number that all of one set have; −1 of a freedom that is in none.
-  Index of(Index freedom) const {
-    const Index set = root(freedom + 1);
+  /// A number that all of one set have; −1 of a degree of freedom that is in none.
+  Index of(Index dof) const {
+    const Index set = root(dof + 1);
     return set == root(ground) ? -1 : set;
   }
 
  private:
-  static constexpr Index ground = 0;  // freedoms follow
+  static constexpr Index ground = 0;  // degrees of freedom follow
 
   static std::size_t index(Index i) { return static_cast<std::size_t>(i); }
   Index root(Index i) const {

@@ -24,16 +24,16 @@ std::vector<double> sample_fractions(const MemberMesh& mesh) {
   return fractions;
 }
 
-MemberObservable::Component component_of(Freedom freedom) {
+MemberObservable::Component component_of(Dof dof) {
   using Component = MemberObservable::Component;
-  switch (freedom) {
-    case Freedom::x:
+  switch (dof) {
+    case Dof::x:
       return Component::x;
-    case Freedom::z:
+    case Dof::z:
       return Component::z;
-    case Freedom::rotation:
-    case Freedom::thickness:
-    case Freedom::thickness2:
+    case Dof::rotation:
+    case Dof::thickness:
+    case Dof::thickness2:
       break;
   }
   return Component::rotation;
@@ -44,16 +44,16 @@ class FixedBody final : public Body {
   FixedBody(const Structure& structure, std::vector<Theory> theories, const IncrementalStructure* increments)
       : structure_(structure), theories_(std::move(theories)), increments_(increments) {}
 
-  std::shared_ptr<const Observable> motion(Index freedom) const override {
-    return std::make_shared<FreedomObservable>(structure_, freedom);
+  std::shared_ptr<const Observable> motion(Index dof) const override {
+    return std::make_shared<DofObservable>(structure_, dof);
   }
   std::shared_ptr<const Observable> motion(std::size_t member, std::size_t node,
                                            MemberObservable::Component component) const override {
     return std::make_shared<MemberObservable>(structure_, structure_.members()[member], node, component);
   }
-  std::shared_ptr<const Observable> reaction(Index freedom) const override {
-    if (increments_ != nullptr) return std::make_shared<IncrementalReaction>(*increments_, freedom);
-    return std::make_shared<ReactionObservable>(structure_, freedom);
+  std::shared_ptr<const Observable> reaction(Index dof) const override {
+    if (increments_ != nullptr) return std::make_shared<IncrementalReaction>(*increments_, dof);
+    return std::make_shared<ReactionObservable>(structure_, dof);
   }
   std::shared_ptr<const Observable> section_force(std::size_t member, double fraction,
                                                   SectionForce what) const override {
@@ -108,11 +108,11 @@ class SlidingMeshBody final : public Body {
   SlidingMeshBody(const Structure& structure, const SlidingStructure& sliding)
       : structure_(structure), sliding_(sliding) {}
 
-  std::shared_ptr<const Observable> motion(Index freedom) const override;
+  std::shared_ptr<const Observable> motion(Index dof) const override;
   std::shared_ptr<const Observable> motion(std::size_t member, std::size_t node,
                                            MemberObservable::Component component) const override;
-  std::shared_ptr<const Observable> reaction(Index freedom) const override {
-    return std::make_shared<JointObservable>(sliding_, freedom, JointObservable::What::reaction);
+  std::shared_ptr<const Observable> reaction(Index dof) const override {
+    return std::make_shared<JointObservable>(sliding_, dof, JointObservable::What::reaction);
   }
   std::shared_ptr<const Observable> section_force(std::size_t member, double fraction,
                                                   SectionForce what) const override {
@@ -138,10 +138,10 @@ class SlidingMeshBody final : public Body {
 };
 
 // A joint that a strand passes has no unknowns of its own.
-std::shared_ptr<const Observable> SlidingMeshBody::motion(Index freedom) const {
-  if (const auto inside = sliding_.inside(freedom))
-    return std::make_shared<PlaceObservable>(sliding_, *inside, component_of(sliding_.kind(freedom)));
-  return std::make_shared<JointObservable>(sliding_, freedom, JointObservable::What::motion);
+std::shared_ptr<const Observable> SlidingMeshBody::motion(Index dof) const {
+  if (const auto inside = sliding_.inside(dof))
+    return std::make_shared<PlaceObservable>(sliding_, *inside, component_of(sliding_.kind(dof)));
+  return std::make_shared<JointObservable>(sliding_, dof, JointObservable::What::motion);
 }
 
 // Above the axis is to the left of the member, whichever way its strand travels.

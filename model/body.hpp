@@ -17,20 +17,20 @@ namespace arcwall {
 /// What is read off a structure in a state: how places move, what supports exert, what members carry. It is one face
 /// for the meshes that the states may have: nodes that are fixed along the members, or breakpoints that slide.
 ///
-/// Members, nodes and freedoms are those of the deck's mesh, which is Structure's.
+/// Members, nodes and degrees of freedom are those of the deck's mesh, which is Structure's.
 class Body {
  public:
   virtual ~Body() = default;
 
-  /// Displacement or rotation of a freedom of a joint, from the stress-free state.
-  virtual std::shared_ptr<const Observable> motion(Index freedom) const = 0;
+  /// Displacement or rotation of a degree of freedom of a joint, from the stress-free state.
+  virtual std::shared_ptr<const Observable> motion(Index dof) const = 0;
 
   /// The same of a member at a node of its mesh, or of one of its faces there: see MemberObservable.
   virtual std::shared_ptr<const Observable> motion(std::size_t member, std::size_t node,
                                                    MemberObservable::Component component) const = 0;
 
-  /// What the support that holds a freedom exerts on the structure [force, force·length].
-  virtual std::shared_ptr<const Observable> reaction(Index freedom) const = 0;
+  /// What the support that holds a degree of freedom exerts on the structure [force, force·length].
+  virtual std::shared_ptr<const Observable> reaction(Index dof) const = 0;
 
   enum class SectionForce { axial_force, moment };
 
@@ -57,7 +57,7 @@ std::unique_ptr<Body> body_of(const Structure& structure, std::vector<Theory> th
                               const IncrementalStructure* increments);
 
 /// The body whose states are those of contact that slides on `sliding`. `structure` has the deck's mesh, which says
-/// where members, nodes and freedoms are. What is referred to must outlive the body.
+/// where members, nodes and degrees of freedom are. What is referred to must outlive the body.
 std::unique_ptr<Body> body_of(const Structure& structure, const SlidingStructure& sliding);
 
 }  // namespace arcwall

@@ -224,7 +224,7 @@ bool lies_on(const deck::LineProfile& line, const MemberMesh& mesh) {
 bool is_turned_by_a_support(const deck::Deck& deck, const std::string& point) {
   return std::any_of(deck.supports.begin(), deck.supports.end(), [&](const deck::Support& support) {
     const auto& held = support.directions;
-    return support.point == point && std::find(held.begin(), held.end(), Freedom::rotation) != held.end();
+    return support.point == point && std::find(held.begin(), held.end(), Dof::rotation) != held.end();
   });
 }
 

@@ -39,10 +39,10 @@ std::optional<Component> member_component(deck::Component component) {
   return counterpart(known, component);
 }
 
-std::optional<Freedom> reaction_freedom(deck::Component component) {
-  constexpr std::array<Counterpart<Freedom>, 3> known{{{deck::Component::reaction_x, Freedom::x},
-                                                       {deck::Component::reaction_z, Freedom::z},
-                                                       {deck::Component::reaction_moment, Freedom::rotation}}};
+std::optional<Dof> reaction_dof(deck::Component component) {
+  constexpr std::array<Counterpart<Dof>, 3> known{{{deck::Component::reaction_x, Dof::x},
+                                                   {deck::Component::reaction_z, Dof::z},
+                                                   {deck::Component::reaction_moment, Dof::rotation}}};
   return counterpart(known, component);
 }
 
@@ -102,9 +102,9 @@ std::size_t index_of(const MemberMesh& mesh, const Structure& structure) {
   return static_cast<std::size_t>(&mesh - structure.members().data());
 }
 
-std::optional<Index> thickness_freedom(const ThicknessFreedoms& freedoms, deck::Component component) {
-  if (component == deck::Component::thickness) return freedoms.e;
-  if (component == deck::Component::thickness2) return freedoms.xi;
+std::optional<Index> thickness_dof(const ThicknessDofs& dofs, deck::Component component) {
+  if (component == deck::Component::thickness) return dofs.e;
+  if (component == deck::Component::thickness2) return dofs.xi;
   return std::nullopt;
 }
 
@@ -128,8 +128,8 @@ std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Pla
   const std::vector<End> at = ends_of(from, place);
   if (component == deck::Component::axial_force || component == deck::Component::moment)
     return member_force(from, at, component);
-  if (const auto freedom = reaction_freedom(component)) {
-    if (*freedom != Freedom::rotation) return reaction_of(from, structure.freedom(node.node, *freedom));
+  if (const auto dof = reaction_dof(component)) {
+    if (*dof != Dof::rotation) return reaction_of(from, structure.dof(node.node, *dof));
     for (const End& end : at)
       if (const auto rotation = end.mesh->rotations[end.position]; rotation && !structure.unknown(*rotation))
         return reaction_of(from, *rotation);
@@ -137,7 +137,7 @@ std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Pla
   }
   for (const End& end : at)
     if (const auto thickness = end.mesh->section(end.position).thickness)
-      if (const auto freedom = thickness_freedom(*thickness, component)) return from.body.motion(*freedom);
+      if (const auto dof = thickness_dof(*thickness, component)) return from.body.motion(*dof);
   const auto wanted = member_component(component);
   if (!wanted) return nullptr;
   const bool turns = *wanted != Component::x && *wanted != Component::z;
@@ -194,7 +194,7 @@ double moment_at(const MemberStretch& stretch, double xi) { return stretch.momen
 SectionQuantity pressure_of(const deck::Foundation& foundation) {
   FoundationLaw law(Vec2(foundation.x, foundation.z));
   if (foundation.law)
-    law.add(foundation.law->direction == Freedom::x ? 0 : 1, std::make_shared<const SpringLaw>(foundation.law->law()));
+    law.add(foundation.law->direction == Dof::x ? 0 : 1, std::make_shared<const SpringLaw>(foundation.law->law()));
   return [law = std::move(law)](const MemberStretch& stretch, double xi) {
     return law.at(stretch.now.position(xi) - stretch.rest.position(xi)).force.norm();
   };
@@ -221,19 +221,19 @@ std::shared_ptr<const Observable> greatest(const deck::Deck& deck, const Measure
 // --- the force of a spring ------------------------------------------------------------------------------------------
 
 // How a place moves in a direction; null if it has no such rotation.
-std::shared_ptr<const Observable> motion_in(const Measured& from, const deck::Place& place, Freedom direction) {
+std::shared_ptr<const Observable> motion_in(const Measured& from, const deck::Place& place, Dof direction) {
   const Places::Node at = from.places.find(place, from.structure.members());
-  if (direction != Freedom::rotation) return from.body.motion(from.structure.freedom(at.node, direction));
+  if (direction != Dof::rotation) return from.body.motion(from.structure.dof(at.node, direction));
   if (at.member != nullptr)
     return at.member->rotations[at.position] ? from.body.motion(*at.member->rotations[at.position]) : nullptr;
   const auto rotation = from.places.rotations.find(place.name);
   return rotation == from.places.rotations.end() ? nullptr : from.body.motion(rotation->second);
 }
 
-SpringForce::Law law_of(const std::optional<deck::TableLaw>& law, const deck::Stiffness& stiffness, Freedom direction) {
+SpringForce::Law law_of(const std::optional<deck::TableLaw>& law, const deck::Stiffness& stiffness, Dof direction) {
   if (law) return std::make_shared<const SpringLaw>(law->law());
-  if (direction == Freedom::rotation) return stiffness.rotation;
-  return direction == Freedom::x ? stiffness.x : stiffness.z;
+  if (direction == Dof::rotation) return stiffness.rotation;
+  return direction == Dof::x ? stiffness.x : stiffness.z;
 }
 
 // Of a spring at points that has a law, among those of the structure.
@@ -251,9 +251,9 @@ std::size_t law_spring_number(const deck::Deck& deck, const deck::Spring& spring
 std::shared_ptr<const Observable> spring_force(const deck::Deck& deck, const Measured& from,
                                                const deck::Monitor& monitor) {
   const deck::Spring& spring = *deck::find(deck.springs, monitor.spring);
-  const Freedom direction = monitor.component == deck::Component::force_x   ? Freedom::x
-                            : monitor.component == deck::Component::force_z ? Freedom::z
-                                                                            : Freedom::rotation;
+  const Dof direction = monitor.component == deck::Component::force_x   ? Dof::x
+                        : monitor.component == deck::Component::force_z ? Dof::z
+                                                                        : Dof::rotation;
   std::shared_ptr<const Observable> first, second;
   std::optional<SpringForce::Law> law;
   if (const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind)) {
@@ -335,13 +335,13 @@ void add_reactions_of_movements(const deck::Deck& deck, const Measured& from, st
 
 }  // namespace
 
-std::shared_ptr<const Observable> reaction_of(const Measured& from, Index freedom) {
-  auto reaction = from.body.reaction(freedom);
+std::shared_ptr<const Observable> reaction_of(const Measured& from, Index dof) {
+  auto reaction = from.body.reaction(dof);
   if (from.kinked == nullptr) return reaction;
   std::vector<KinkedForce::Part> parts;
   const auto& springs = from.structure.nodal_terms().law_springs();
   for (std::size_t i = 0; i < springs.size(); ++i)
-    if (springs[i].joins(freedom)) parts.push_back({.spring = i, .sign = springs[i].sign(freedom)});
+    if (springs[i].joins(dof)) parts.push_back({.spring = i, .sign = springs[i].sign(dof)});
   if (parts.empty()) return reaction;
   return std::make_shared<KinkedForce>(*from.kinked, std::move(reaction), std::move(parts));
 }

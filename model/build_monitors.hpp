@@ -19,8 +19,8 @@ struct Measured {
   const KinkedSprings* kinked = nullptr;     ///< the same where laws have kinks; else null
 };
 
-/// What a support exerts on a freedom of a joint.
-std::shared_ptr<const Observable> reaction_of(const Measured& from, Index freedom);
+/// What a support exerts on a degree of freedom of a joint.
+std::shared_ptr<const Observable> reaction_of(const Measured& from, Index dof);
 
 /// What a component of a place is read from; null if the place has no such component.
 std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Place& place, deck::Component component);

@@ -36,13 +36,13 @@ PathMethod path_method(deck::PathMethod method) {
 bool is_at_rest(const Measured& from, const deck::Control& control) {
   const Structure& structure = from.structure;
   const Places::Node place = from.places.find(control.at, structure.members());
-  std::optional<Index> freedom;
-  if (control.component == deck::Component::x) freedom = structure.freedom(place.node, Freedom::x);
-  if (control.component == deck::Component::z) freedom = structure.freedom(place.node, Freedom::z);
-  if (!freedom || structure.unknown(*freedom)) return false;
+  std::optional<Index> dof;
+  if (control.component == deck::Component::x) dof = structure.dof(place.node, Dof::x);
+  if (control.component == deck::Component::z) dof = structure.dof(place.node, Dof::z);
+  if (!dof || structure.unknown(*dof)) return false;
   bool moved = false;
   structure.nodal_terms().for_each_moved_support([&](Index one, double rate) {
-    if (one == *freedom && rate != 0.0) moved = true;
+    if (one == *dof && rate != 0.0) moved = true;
   });
   return !moved;
 }

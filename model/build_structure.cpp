@@ -205,9 +205,9 @@ void add_members(const deck::Deck& deck, bool coarse, DeckProblems& problems, St
   }
 }
 
-void fix_thickness(const deck::Support& support, Freedom direction, DeckProblems& problems, StructureOfDeck& out) {
-  const std::vector<ThicknessFreedoms> ends = out.builder.thickness(out.places.joints.at(support.point));
-  for (const ThicknessFreedoms& end : ends) out.builder.fix(direction == Freedom::thickness ? end.e : end.xi);
+void fix_thickness(const deck::Support& support, Dof direction, DeckProblems& problems, StructureOfDeck& out) {
+  const std::vector<ThicknessDofs> ends = out.builder.thickness(out.places.joints.at(support.point));
+  for (const ThicknessDofs& end : ends) out.builder.fix(direction == Dof::thickness ? end.e : end.xi);
   if (ends.empty())
     problems.add(support.position, "support." + support.point,
                  "no member of theory \"essenburg\" ends at \"" + support.point + "\": there is no thickness to fix",
@@ -216,16 +216,16 @@ void fix_thickness(const deck::Support& support, Freedom direction, DeckProblems
 
 void add_support(const deck::Support& support, DeckProblems& problems, StructureOfDeck& out) {
   const Index joint = out.places.joints.at(support.point);
-  for (const Freedom direction : support.directions) {
+  for (const Dof direction : support.directions) {
     const std::string key = "support." + support.point;
     switch (direction) {
-      case Freedom::x:
-        out.builder.fix(out.builder.freedom(joint, Freedom::x));
+      case Dof::x:
+        out.builder.fix(out.builder.dof(joint, Dof::x));
         break;
-      case Freedom::z:
-        out.builder.fix(out.builder.freedom(joint, Freedom::z));
+      case Dof::z:
+        out.builder.fix(out.builder.dof(joint, Dof::z));
         break;
-      case Freedom::rotation:
+      case Dof::rotation:
         if (const auto rotation = out.builder.shared_rotation(joint)) {
           out.builder.fix(*rotation);
         } else {
@@ -233,8 +233,8 @@ void add_support(const deck::Support& support, DeckProblems& problems, Structure
                        "leave out \"rotation\", or join a beam there without a hinge");
         }
         break;
-      case Freedom::thickness:
-      case Freedom::thickness2:
+      case Dof::thickness:
+      case Dof::thickness2:
         fix_thickness(support, direction, problems, out);
         break;
     }
@@ -242,28 +242,28 @@ void add_support(const deck::Support& support, DeckProblems& problems, Structure
 }
 
 // Displacements and rotation of a node; that of a joint is the one that its rigidly joined member ends share.
-struct NodeFreedoms {
+struct NodeDofs {
   Index x, z;
   std::optional<Index> rotation;
 };
 
-NodeFreedoms freedoms_at(const StructureBuilder& builder, Index node, std::optional<Index> rotation) {
-  return {.x = builder.freedom(node, Freedom::x), .z = builder.freedom(node, Freedom::z), .rotation = rotation};
+NodeDofs dofs_at(const StructureBuilder& builder, Index node, std::optional<Index> rotation) {
+  return {.x = builder.dof(node, Dof::x), .z = builder.dof(node, Dof::z), .rotation = rotation};
 }
 
-NodeFreedoms freedoms_of_joint(const StructureOfDeck& of, const std::string& point) {
+NodeDofs dofs_of_joint(const StructureOfDeck& of, const std::string& point) {
   const Index joint = of.places.joints.at(point);
-  return freedoms_at(of.builder, joint, of.builder.shared_rotation(joint));
+  return dofs_at(of.builder, joint, of.builder.shared_rotation(joint));
 }
 
 // A fraction is a node of the deck's mesh.
-std::optional<NodeFreedoms> freedoms_at(const StructureOfDeck& of, const deck::Place& place) {
-  if (!place.fraction) return freedoms_of_joint(of, place.name);
+std::optional<NodeDofs> dofs_at(const StructureOfDeck& of, const deck::Place& place) {
+  if (!place.fraction) return dofs_of_joint(of, place.name);
   const auto member = of.places.members.find(place.name);
   if (member == of.places.members.end()) return std::nullopt;
   const MemberMesh& mesh = of.builder.mesh(member->second);
   const auto k = static_cast<std::size_t>(std::lround(*place.fraction * double(mesh.nodes.size() - 1)));
-  return freedoms_at(of.builder, mesh.nodes[k], mesh.rotations[k]);
+  return dofs_at(of.builder, mesh.nodes[k], mesh.rotations[k]);
 }
 
 // In the coarsest model loads inside members play no part.
@@ -271,13 +271,13 @@ void add_point_load(const deck::Load& load, const deck::PointLoad& action, bool 
                     StructureOfDeck& out) {
   const LoadKind kind = load.constant ? LoadKind::constant : LoadKind::proportional;
   if (action.at.fraction && coarse) return;
-  const auto freedoms = freedoms_at(out, action.at);
-  if (!freedoms) return;
-  out.builder.add_load(freedoms->x, action.force.x, kind);
-  out.builder.add_load(freedoms->z, action.force.z, kind);
+  const auto dofs = dofs_at(out, action.at);
+  if (!dofs) return;
+  out.builder.add_load(dofs->x, action.force.x, kind);
+  out.builder.add_load(dofs->z, action.force.z, kind);
   if (action.moment == 0.0) return;
-  if (freedoms->rotation) {
-    out.builder.add_load(*freedoms->rotation, action.moment, kind);
+  if (dofs->rotation) {
+    out.builder.add_load(*dofs->rotation, action.moment, kind);
   } else {
     problems.add(action.at.position, "load.moment", "nothing at \"" + to_text(action.at) + "\" can take a moment",
                  "put the moment where a beam is joined without a hinge");
@@ -323,21 +323,21 @@ void move_supports(const deck::Deck& deck, const Joined& joined, DeckProblems& p
   std::map<Index, Driven> moved;
   for (const deck::Prescribed& one : deck.prescribed) {
     if (!joined(one.point, one.position, "prescribed.at")) continue;
-    const NodeFreedoms freedoms = freedoms_of_joint(out, one.point);
-    const auto move = [&](Index freedom, double value) {
-      moved[freedom] += one.constant ? Driven{.constant = value} : Driven{.proportional = value};
+    const NodeDofs dofs = dofs_of_joint(out, one.point);
+    const auto move = [&](Index dof, double value) {
+      moved[dof] += one.constant ? Driven{.constant = value} : Driven{.proportional = value};
     };
-    if (one.x) move(freedoms.x, *one.x);
-    if (one.z) move(freedoms.z, *one.z);
+    if (one.x) move(dofs.x, *one.x);
+    if (one.z) move(dofs.z, *one.z);
     if (!one.rotation) continue;
-    if (freedoms.rotation) {
-      move(*freedoms.rotation, *one.rotation);
+    if (dofs.rotation) {
+      move(*dofs.rotation, *one.rotation);
     } else {
       problems.add(one.position, "prescribed.rotation", "no member end at \"" + one.point + "\" has a rotation",
                    "leave out rotation, or join a beam there without a hinge");
     }
   }
-  for (const auto& [freedom, value] : moved) out.builder.fix(freedom, value);
+  for (const auto& [dof, value] : moved) out.builder.fix(dof, value);
 }
 
 // --- pressure -------------------------------------------------------------------------------------------------------
@@ -371,9 +371,9 @@ void report_no_rotation(const deck::Spring& spring, const std::string& place, bo
                "leave out rotation, or join a beam there without a hinge");
 }
 
-std::optional<Index> freedom_in(const NodeFreedoms& freedoms, Freedom direction) {
-  if (direction == Freedom::rotation) return freedoms.rotation;
-  return direction == Freedom::x ? freedoms.x : freedoms.z;
+std::optional<Index> dof_in(const NodeDofs& dofs, Dof direction) {
+  if (direction == Dof::rotation) return dofs.rotation;
+  return direction == Dof::x ? dofs.x : dofs.z;
 }
 
 // What moves without strain depends on how the spring begins alone.
@@ -388,28 +388,28 @@ void add_law(const deck::TableLaw& table, std::optional<Index> first, Index seco
 
 void add_spring(const deck::Spring& spring, const deck::GroundSpring& ground, bool coarse, DeckProblems& problems,
                 StructureOfDeck& out) {
-  const auto freedoms = freedoms_at(out, ground.at);
-  if (!freedoms) return;
+  const auto dofs = dofs_at(out, ground.at);
+  if (!dofs) return;
   if (ground.law) {
-    const auto freedom = freedom_in(*freedoms, ground.law->direction);
-    if (!freedom) return report_no_rotation(spring, to_text(ground.at), true, problems);
-    return add_law(*ground.law, std::nullopt, *freedom, coarse, out);
+    const auto dof = dof_in(*dofs, ground.law->direction);
+    if (!dof) return report_no_rotation(spring, to_text(ground.at), true, problems);
+    return add_law(*ground.law, std::nullopt, *dof, coarse, out);
   }
-  const auto add = [&](Index freedom, double stiffness) {
-    if (stiffness > 0.0) out.builder.add_ground_stiffness(freedom, stiffness);
+  const auto add = [&](Index dof, double stiffness) {
+    if (stiffness > 0.0) out.builder.add_ground_stiffness(dof, stiffness);
   };
-  add(freedoms->x, ground.stiffness.x);
-  add(freedoms->z, ground.stiffness.z);
-  if (freedoms->rotation) return add(*freedoms->rotation, ground.stiffness.rotation);
+  add(dofs->x, ground.stiffness.x);
+  add(dofs->z, ground.stiffness.z);
+  if (dofs->rotation) return add(*dofs->rotation, ground.stiffness.rotation);
   if (ground.stiffness.rotation > 0.0) report_no_rotation(spring, to_text(ground.at), false, problems);
 }
 
 void add_spring(const deck::Spring& spring, const deck::PointToPointSpring& between, bool coarse,
                 DeckProblems& problems, StructureOfDeck& out) {
-  const NodeFreedoms first = freedoms_of_joint(out, between.points[0]);
-  const NodeFreedoms second = freedoms_of_joint(out, between.points[1]);
+  const NodeDofs first = dofs_of_joint(out, between.points[0]);
+  const NodeDofs second = dofs_of_joint(out, between.points[1]);
   if (between.law) {
-    const auto a = freedom_in(first, between.law->direction), b = freedom_in(second, between.law->direction);
+    const auto a = dof_in(first, between.law->direction), b = dof_in(second, between.law->direction);
     if (!a || !b) return report_no_rotation(spring, a ? between.points[1] : between.points[0], true, problems);
     return add_law(*between.law, *a, *b, coarse, out);
   }
@@ -437,12 +437,12 @@ void add_foundation(const deck::Deck& deck, const deck::Spring& spring, const de
   if (foundation.law) {
     auto law = std::make_shared<const SpringLaw>(foundation.law->law());
     if (!coarse) return out.builder.add_foundation(member->second, foundation.law->direction, std::move(law));
-    stiffness[foundation.law->direction == Freedom::x ? 0 : 1] = law->at(0.0).stiffness;
+    stiffness[foundation.law->direction == Dof::x ? 0 : 1] = law->at(0.0).stiffness;
   }
   if (!coarse) return out.builder.add_foundation(member->second, stiffness);
   for (const Index node : out.builder.mesh(member->second).nodes) {
-    if (stiffness.x() > 0.0) out.builder.add_ground_stiffness(out.builder.freedom(node, Freedom::x), stiffness.x());
-    if (stiffness.y() > 0.0) out.builder.add_ground_stiffness(out.builder.freedom(node, Freedom::z), stiffness.y());
+    if (stiffness.x() > 0.0) out.builder.add_ground_stiffness(out.builder.dof(node, Dof::x), stiffness.x());
+    if (stiffness.y() > 0.0) out.builder.add_ground_stiffness(out.builder.dof(node, Dof::z), stiffness.y());
   }
 }
 
@@ -521,15 +521,15 @@ void check_mechanism(const deck::Deck& deck, DeckProblems& problems) {
   for (const auto& [name, node] : coarse.places.joints)
     if (node == mechanism->node) where = "at point \"" + name + "\"";
   const auto direction = [&] {
-    switch (mechanism->freedom) {
-      case Freedom::x:
+    switch (mechanism->dof) {
+      case Dof::x:
         return "in x";
-      case Freedom::z:
+      case Dof::z:
         return "in z";
-      case Freedom::rotation:
+      case Dof::rotation:
         return "in rotation";
-      case Freedom::thickness:
-      case Freedom::thickness2:
+      case Dof::thickness:
+      case Dof::thickness2:
         return "in thickness";
     }
     return "";

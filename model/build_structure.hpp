@@ -35,8 +35,9 @@ class DeckProblems {
 class Places {
  public:
   std::map<std::string, Index> joints{}, members{};
-  std::map<std::string, Index> rotations{};  ///< freedoms of the joints at which a member is joined without a hinge
-  std::map<std::string, Vec2> ends{};        ///< where the joints stand, stress-free [length]
+  std::map<std::string, Index>
+      rotations{};                     ///< degrees of freedom of the joints at which a member is joined without a hinge
+  std::map<std::string, Vec2> ends{};  ///< where the joints stand, stress-free [length]
 
   /// A node of a member's mesh, or a joint.
   struct Node {

@@ -35,11 +35,11 @@ std::vector<RecordStretch> stretches_of_nodes(const Model& model, const State& s
 // So are tracked points with a part on the wall between them, and a strand that lies on it from end to end. The nodes
 // that are pressed inside bear a part of the force.
 std::vector<RecordStretch> stretches_that_slide(const SlidingContact& contact, const State& state) {
-  const SlidingContactLayout& layout = sliding_layout(state.piece);
+  const SlidingContactLayout& layout = sliding_layout(state.active_set);
   std::vector<RecordStretch> stretches;
   std::vector<std::size_t> of_point(layout.points().size());
-  for (std::size_t k = 0; k < state.piece.contacts(); ++k) {
-    if (state.piece[k] == 0) continue;
+  for (std::size_t k = 0; k < state.active_set.contacts(); ++k) {
+    if (state.active_set[k] == 0) continue;
     const ContactPoint here = contact.contact(state, static_cast<Index>(k));
     const bool is_point = k < layout.points().size();
     if (is_point && k > 0 && layout.points()[k - 1].behind != Span::free) {

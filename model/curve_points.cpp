@@ -148,11 +148,13 @@ void CurveReader::count_sides(const State& state, const SystemFamily::Member& me
   } else {
     counts.before = sides.count(*along, 0.0);
     const auto j = static_cast<std::size_t>(system_.event().guards.front());
-    if (j >= member.state.piece.size()) return;
-    Piece other = member.state.piece;
+    if (j >= member.state.active_set.size()) return;
+    ActiveSet other = member.state.active_set;
     other[j] = other[j] == 0 ? 1 : 0;
-    const SystemFamily::Member behind{.system = member.system, .state = member.system->with_piece(member.state, other)};
-    Direction there{.dx = member.system->transfer(along->dx, member.state.piece, other), .dlambda = along->dlambda};
+    const SystemFamily::Member behind{.system = member.system,
+                                      .state = member.system->with_active_set(member.state, other)};
+    Direction there{.dx = member.system->transfer(along->dx, member.state.active_set, other),
+                    .dlambda = along->dlambda};
     counts.after = Beside(behind, system_.metric_of(behind), factorization()).count(there, 0.0);
   }
   const auto off = [](const std::optional<Index>& a, const std::optional<Index>& b) {

@@ -322,7 +322,7 @@ void CurveTracing::visit(Archive& archive) {
 
 // Whether a state read is one of the curve's, with the guards that vanish there.
 bool CurveTracing::has_event(const State& state) const {
-  const Index guards = system_->guard_count(state.piece);
+  const Index guards = system_->guard_count(state.active_set);
   const auto& list = followed_.event.guards;
   return system_->at(state).has_value() && (followed_.event.criterion != Criterion::guard || !list.empty()) &&
          std::all_of(list.begin(), list.end(), [&](Index j) { return j >= 0 && j < guards; });

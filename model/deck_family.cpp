@@ -18,8 +18,8 @@ struct DeckFamily::Kept {
   double value = 0.0;
   std::shared_ptr<const Model> model{};  // null: there is no such deck
   std::string problem{};                 // then
-  Piece common{}, own{};                 // the piece that was asked for last, and what it is there
-  bool has_piece = false;
+  ActiveSet common{}, own{};             // the active set that was asked for last, and what it is there
+  bool has_active_set = false;
 };
 
 DeckFamily::DeckFamily(const deck::Deck& deck, deck::DeckNumber number)
@@ -57,18 +57,18 @@ std::optional<State> DeckFamily::in_common_terms(const State& state) const { ret
 std::optional<SystemFamily::Member> DeckFamily::at(double kappa, const State& state) const {
   Kept& one = kept(kappa);
   if (!one.model) return std::nullopt;
-  if (!one.has_piece || !(one.common == state.piece)) {
+  if (!one.has_active_set || !(one.common == state.active_set)) {
     const auto there = state_on(*one.model, state);
     if (!there) {
       problem_ = "its mesh is another one";
       return std::nullopt;
     }
-    one.common = state.piece;
-    one.own = there->piece;
-    one.has_piece = true;
+    one.common = state.active_set;
+    one.own = there->active_set;
+    one.has_active_set = true;
   }
   Member member{.system = std::shared_ptr<const System>(one.model, &one.model->system()),
-                .state = {.x = state.x, .lambda = state.lambda, .piece = one.own}};
+                .state = {.x = state.x, .lambda = state.lambda, .active_set = one.own}};
   if (!turning_.empty())
     for (const Watch& watch : one.model->watched())
       if (watch.label == turning_) member.turning = watch.quantity;
@@ -83,7 +83,7 @@ std::string first_message(const InputError& error) {
 std::optional<State> state_on(const Model& model, const State& state) {
   if (model.sliding() != nullptr) return model.sliding()->taken_over(state);
   const System& system = model.system();
-  if (system.open_piece().size() != state.piece.size() || system.size(state.piece) != state.x.size())
+  if (system.open_active_set().size() != state.active_set.size() || system.size(state.active_set) != state.x.size())
     return std::nullopt;
   return state;
 }

@@ -53,10 +53,9 @@ std::vector<MovedStrand> moved_strands(const Model& model, const State& deck_sta
   for (const MemberMesh& member : structure.members()) {
     for (std::size_t k = 0; k < member.nodes.size(); ++k) {
       const MaterialPoint point = sliding.find(member.name, member.fraction(k));
-      const auto value = [&](Index freedom) { return structure.value(deck_state, freedom); };
+      const auto value = [&](Index dof) { return structure.value(deck_state, dof); };
       MovedPlace place{.s = point.s};
-      place.moved = {value(structure.freedom(member.nodes[k], Freedom::x)),
-                     value(structure.freedom(member.nodes[k], Freedom::z))};
+      place.moved = {value(structure.dof(member.nodes[k], Dof::x)), value(structure.dof(member.nodes[k], Dof::z))};
       if (member.rotations[k]) place.turned = value(*member.rotations[k]);
       const double angle = sliding.undeformed(point, true).angle;
       place.angle = angle + place.turned;
@@ -130,7 +129,7 @@ std::vector<TouchingNodes> touching_nodes(const Model& model, const State& state
   };
   std::vector<Node> nodes;
   for (Index j = 0; j < contact.contact_count(); ++j) {
-    const bool closed = state.piece[static_cast<std::size_t>(j)] != 0;
+    const bool closed = state.active_set[static_cast<std::size_t>(j)] != 0;
     if (!closed && guards[j] > touching) continue;
     const ContactPoint point = contact.contact(state, j);
     nodes.push_back({.wall = point.label.wall,
@@ -211,15 +210,15 @@ DeckMesh::DeckMesh(const Model& model)
   if (model.sliding() == nullptr) return;
   const Structure& structure = model.structure();
   readings_.resize(static_cast<std::size_t>(size_));
-  const auto read = [&](Index freedom, std::shared_ptr<const Observable> what) {
-    if (const auto unknown = structure.unknown(freedom)) readings_[static_cast<std::size_t>(*unknown)] = what;
+  const auto read = [&](Index dof, std::shared_ptr<const Observable> what) {
+    if (const auto unknown = structure.unknown(dof)) readings_[static_cast<std::size_t>(*unknown)] = what;
   };
   for (std::size_t m = 0; m < structure.members().size(); ++m) {
     const MemberMesh& mesh = structure.members()[m];
     for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
       using enum MemberObservable::Component;
-      read(structure.freedom(mesh.nodes[k], Freedom::x), model.body().motion(m, k, x));
-      read(structure.freedom(mesh.nodes[k], Freedom::z), model.body().motion(m, k, z));
+      read(structure.dof(mesh.nodes[k], Dof::x), model.body().motion(m, k, x));
+      read(structure.dof(mesh.nodes[k], Dof::z), model.body().motion(m, k, z));
       if (mesh.rotations[k]) read(*mesh.rotations[k], model.body().motion(m, k, rotation));
     }
   }
@@ -241,8 +240,8 @@ Vector DeckMesh::unknowns(const State& of_model) const {
 }
 
 State DeckMesh::state(const Vector& unknowns, double lambda) const {
-  const Piece piece = model_.contact() != nullptr ? model_.contact()->open_piece() : Piece();
-  State state{.x = Vector::Zero(system().size(piece)), .lambda = lambda, .piece = piece};
+  const ActiveSet active_set = model_.contact() != nullptr ? model_.contact()->open_active_set() : ActiveSet();
+  State state{.x = Vector::Zero(system().size(active_set)), .lambda = lambda, .active_set = active_set};
   state.x.head(size_) = unknowns;
   return state;
 }
@@ -263,7 +262,7 @@ Vector DeckMesh::values(const State& state) const {
 }
 
 std::vector<State> DeckMesh::in_path_formulation(const State& equilibrium) const {
-  const State deck_state{.x = equilibrium.x.head(size_), .lambda = equilibrium.lambda, .piece = {}};
+  const State deck_state{.x = equilibrium.x.head(size_), .lambda = equilibrium.lambda, .active_set = {}};
   const std::vector<MovedStrand> strands = moved_strands(model_, deck_state);
   const State open = open_shape(model_, strands, equilibrium.lambda);
   std::vector<State> guesses;

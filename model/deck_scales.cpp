@@ -18,10 +18,10 @@ double force_of_movements(const Structure& structure) {
   if (!start) return 0.0;
   const Direction& tangent = start->to.tangent;
   double greatest = 0.0;
-  structure.nodal_terms().for_each_moved_support([&](Index freedom, double) {
-    const Row row = structure.reaction_gradient(start->to.state, freedom);
+  structure.nodal_terms().for_each_moved_support([&](Index dof, double) {
+    const Row row = structure.reaction_gradient(start->to.state, dof);
     const double rate = std::abs(row.dx.dot(tangent.dx) / tangent.dlambda + row.dlambda);
-    const bool turns = structure.meaning_of_freedom(freedom).freedom == Freedom::rotation;
+    const bool turns = structure.meaning_of_dof(dof).dof == Dof::rotation;
     greatest = std::max(greatest, turns ? rate / structure.length_scale() : rate);
   });
   return greatest;

@@ -25,7 +25,7 @@ double slope_of(const End& a, const End& b) {
 }
 
 double greatest_on(const SlidingStructure& body, const State& state) {
-  const SlidingMesh& mesh = sliding_layout(state.piece).mesh();
+  const SlidingMesh& mesh = sliding_layout(state.active_set).mesh();
   const MeshState now = mesh_state_of(state);
   const auto end_at = [&](Index strand, Index position) {
     const AxisPlace rest = body.undeformed({.strand = strand, .s = mesh.coordinate(strand, position, now.s)}, true);

@@ -42,13 +42,13 @@ void TiedElements::add_stretches(const State& state, Index element, std::vector<
 std::vector<ElementsOfMember::Step> TiedElements::steps(const State&, Index element) const {
   const Structure& structure = member_.structure;
   const Vector alike = moves_alike(structure.weights({}));
-  const ShiftedIndices freedoms = structure.element_freedoms(first_ + element);
+  const ShiftedIndices dofs = structure.element_dofs(first_ + element);
   std::vector<Step> steps;
-  for (std::size_t i = 0; i < freedoms.size(); ++i) {
-    const auto unknown = structure.unknown(freedoms[i]);
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const auto unknown = structure.unknown(dofs[i]);
     if (!unknown) continue;
     // Changes of thickness, which have no weight, are strains, and strains over a length.
-    const bool by_length = structure.meaning(*unknown).freedom == Freedom::thickness2;
+    const bool by_length = structure.meaning(*unknown).dof == Dof::thickness2;
     const double strain = by_length ? relative_move / structure.length_scale() : relative_move;
     steps.push_back({.unknown = *unknown, .size = alike[*unknown] > 0.0 ? alike[*unknown] : strain});
   }

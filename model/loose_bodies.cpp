@@ -34,7 +34,7 @@ LooseHolds holds_at(const StructureOfDeck& described, const Structure& structure
     if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) continue;
     LooseHolds::Hold hold{.at = {.name = name}};
     for (const NodeDirection& free : free_directions(structure, {node}))
-      (free.freedom == Freedom::x ? hold.stiffness.x : hold.stiffness.z) = stiffness;
+      (free.dof == Dof::x ? hold.stiffness.x : hold.stiffness.z) = stiffness;
     if (hold.stiffness != deck::Stiffness{}) found.holds.push_back(std::move(hold));
   }
   return found;
@@ -154,9 +154,9 @@ Vec2 constant_resultant(const deck::Deck& deck) {
   structure->linearize({.x = Vector::Zero(structure->size({})), .lambda = 0.0}, at_rest);
   Vec2 sum = Vec2::Zero();
   for (Index i = 0; i < at_rest.F_lambda.size(); ++i) {
-    const Freedom which = structure->meaning(i).freedom;
-    if (which == Freedom::x) sum.x() -= at_rest.F_lambda[i];
-    if (which == Freedom::z) sum.y() -= at_rest.F_lambda[i];
+    const Dof which = structure->meaning(i).dof;
+    if (which == Dof::x) sum.x() -= at_rest.F_lambda[i];
+    if (which == Dof::z) sum.y() -= at_rest.F_lambda[i];
   }
   return sum;
 }

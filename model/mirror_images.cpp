@@ -7,17 +7,17 @@ namespace arcwall {
 
 namespace {
 
-// The factor of a freedom's value in an image.
-double factor(Freedom kind, const Vec2& factors) {
+// The factor of a degree of freedom's value in an image.
+double factor(Dof kind, const Vec2& factors) {
   switch (kind) {
-    case Freedom::x:
+    case Dof::x:
       return factors.x();
-    case Freedom::z:
-    case Freedom::thickness2:
+    case Dof::z:
+    case Dof::thickness2:
       return factors.y();
-    case Freedom::rotation:
+    case Dof::rotation:
       return factors.x() * factors.y();
-    case Freedom::thickness:
+    case Dof::thickness:
       return 1.0;
   }
   return 1.0;
@@ -26,31 +26,31 @@ double factor(Freedom kind, const Vec2& factors) {
 }  // namespace
 
 MirrorImages::MirrorImages(const Structure& structure)
-    : structure_(structure), freedoms_(static_cast<std::size_t>(structure.node_count())) {
+    : structure_(structure), dofs_(static_cast<std::size_t>(structure.node_count())) {
   Vec2 low = structure.position(0), high = low;
   for (Index node = 0; node < structure.node_count(); ++node) {
     low = low.cwiseMin(structure.position(node));
     high = high.cwiseMax(structure.position(node));
-    for (const Freedom kind : {Freedom::x, Freedom::z})
-      freedoms_[static_cast<std::size_t>(node)].push_back({structure.freedom(node, kind), kind});
+    for (const Dof kind : {Dof::x, Dof::z})
+      dofs_[static_cast<std::size_t>(node)].push_back({structure.dof(node, kind), kind});
   }
   middle_ = 0.5 * (low + high);
-  const auto add = [&](Index node, Index freedom, Freedom kind) {
-    auto& list = freedoms_[static_cast<std::size_t>(node)];
-    if (std::none_of(list.begin(), list.end(), [&](const NodeFreedom& one) { return one.freedom == freedom; }))
-      list.push_back({freedom, kind});
+  const auto add = [&](Index node, Index dof, Dof kind) {
+    auto& list = dofs_[static_cast<std::size_t>(node)];
+    if (std::none_of(list.begin(), list.end(), [&](const NodeDof& one) { return one.dof == dof; }))
+      list.push_back({dof, kind});
   };
-  const auto add_thickness = [&](Index node, const ThicknessFreedoms& thickness) {
-    add(node, thickness.e, Freedom::thickness);
-    add(node, thickness.xi, Freedom::thickness2);
+  const auto add_thickness = [&](Index node, const ThicknessDofs& thickness) {
+    add(node, thickness.e, Dof::thickness);
+    add(node, thickness.xi, Dof::thickness2);
   };
   for (const MemberMesh& member : structure.members()) {
     for (std::size_t k = 0; k < member.nodes.size(); ++k) {
-      if (member.rotations[k]) add(member.nodes[k], *member.rotations[k], Freedom::rotation);
+      if (member.rotations[k]) add(member.nodes[k], *member.rotations[k], Dof::rotation);
       if (k < member.thickness.size()) add_thickness(member.nodes[k], member.thickness[k]);
     }
     for (std::size_t k = 0; k < member.middle_nodes.size(); ++k) {
-      add(member.middle_nodes[k], member.middle_rotations[k], Freedom::rotation);
+      add(member.middle_nodes[k], member.middle_rotations[k], Dof::rotation);
       if (k < member.middle_thickness.size()) add_thickness(member.middle_nodes[k], member.middle_thickness[k]);
     }
   }
@@ -101,9 +101,9 @@ Vec2 MirrorImages::shift_to_supports(const Mirror& mirror, const State& state) c
   for (Index node = 0; node < structure_.node_count(); ++node) {
     const Vec2 off = structure_.current(state, node) -
                      mirrored(mirror, structure_.current(state, mirror.partner[static_cast<std::size_t>(node)]));
-    for (const Freedom kind : {Freedom::x, Freedom::z}) {
-      if (structure_.unknown(structure_.freedom(node, kind))) continue;
-      const int i = kind == Freedom::z ? 1 : 0;
+    for (const Dof kind : {Dof::x, Dof::z}) {
+      if (structure_.unknown(structure_.dof(node, kind))) continue;
+      const int i = kind == Dof::z ? 1 : 0;
       sum[i] += off[i];
       count[i] += 1.0;
     }
@@ -114,18 +114,18 @@ Vec2 MirrorImages::shift_to_supports(const Mirror& mirror, const State& state) c
 Vector MirrorImages::image(const Mirror& mirror, const State& state) const {
   Vector x = Vector::Zero(structure_.size({}));
   const Vec2 shift = shift_to_supports(mirror, state);
-  for (std::size_t node = 0; node < freedoms_.size(); ++node) {
+  for (std::size_t node = 0; node < dofs_.size(); ++node) {
     const Index partner = mirror.partner[node];
-    const auto &here = freedoms_[node], &there = freedoms_[static_cast<std::size_t>(partner)];
+    const auto &here = dofs_[node], &there = dofs_[static_cast<std::size_t>(partner)];
     const Vec2 moved =
         mirrored(mirror, structure_.current(state, partner)) + shift - structure_.position(static_cast<Index>(node));
     for (std::size_t k = 0; k < here.size(); ++k) {
-      const auto unknown = structure_.unknown(here[k].freedom);
+      const auto unknown = structure_.unknown(here[k].dof);
       if (!unknown) continue;
-      if (here[k].kind == Freedom::x || here[k].kind == Freedom::z)
-        x[*unknown] = here[k].kind == Freedom::x ? moved.x() : moved.y();
+      if (here[k].kind == Dof::x || here[k].kind == Dof::z)
+        x[*unknown] = here[k].kind == Dof::x ? moved.x() : moved.y();
       else if (k < there.size() && there[k].kind == here[k].kind)
-        x[*unknown] = factor(here[k].kind, mirror.factors) * structure_.value(state, there[k].freedom);
+        x[*unknown] = factor(here[k].kind, mirror.factors) * structure_.value(state, there[k].dof);
     }
   }
   return x;

@@ -23,9 +23,9 @@ class MirrorImages {
     std::vector<Index> partner{};  // whose image each node is
   };
   // What a node can do, in the same order for nodes alike.
-  struct NodeFreedom {
-    Index freedom = 0;
-    Freedom kind = Freedom::x;
+  struct NodeDof {
+    Index dof = 0;
+    Dof kind = Dof::x;
   };
 
   std::vector<Index> partners(const Vec2& factors) const;
@@ -35,7 +35,7 @@ class MirrorImages {
 
   const Structure& structure_;
   Vec2 middle_ = Vec2::Zero();
-  std::vector<std::vector<NodeFreedom>> freedoms_;  // of each node
+  std::vector<std::vector<NodeDof>> dofs_;  // of each node
   std::vector<Mirror> mirrors_;
 };
 

@@ -106,9 +106,8 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
                           .system = &system(),
                           .kinked = kinked_.get()};
   monitors_ = monitor_columns(*deck_, read_off, problems);
-  structure_->nodal_terms().for_each_moved_support([&](Index freedom, double rate) {
-    moved_.push_back({.rate = rate, .reaction = reaction_of(read_off, freedom)});
-  });
+  structure_->nodal_terms().for_each_moved_support(
+      [&](Index dof, double rate) { moved_.push_back({.rate = rate, .reaction = reaction_of(read_off, dof)}); });
   options_ = trace_options(*deck_, read_off, monitors_, problems);
   check_watched(*deck_, problems);
   if (problems.empty()) check_search(*this, problems);
@@ -190,16 +189,16 @@ double Model::lambda_scale_if_held(const deck::Deck& deck, bool ramp) const {
   const MultiplierContact contact(*held, contact_candidates(deck, *held, {}, known), contact_->scales());
   TraceOptions options = options_;
   options.lambda_scale.reset();
-  const Piece open = contact.open_piece();
-  return Tracer(contact, {.state = {.x = Vector::Zero(contact.size(open)), .lambda = 0.0, .piece = open}}, options)
+  const ActiveSet open = contact.open_active_set();
+  return Tracer(contact, {.state = {.x = Vector::Zero(contact.size(open)), .lambda = 0.0, .active_set = open}}, options)
       .lambda_scale();
 }
 
 std::optional<std::string> Model::adrift(const State& state) const {
   for (std::size_t i = 0; i < held_.size(); ++i) {
     double squared = 0.0;
-    for (const Freedom direction : {Freedom::x, Freedom::z})
-      squared += std::pow(body_->motion(structure_->freedom(held_[i], direction))->value(state), 2.0);
+    for (const Dof direction : {Dof::x, Dof::z})
+      squared += std::pow(body_->motion(structure_->dof(held_[i], direction))->value(state), 2.0);
     if (squared <= std::pow(farthest * structure_->length_scale(), 2.0)) continue;
     return "neither supports nor contact hold the body at \"" + to_text(loose_holds_.holds[i].at) +
            "\", which has moved by more than " + std::to_string(farthest) + " times the size of the structure";
@@ -301,8 +300,8 @@ LoadIncrements Model::increments(State start) {
 }
 
 std::optional<State> Model::start(std::string& reason) const {
-  State state{.x = {}, .lambda = 0.0, .piece = contact_ ? contact_->open_piece() : Piece()};
-  state.x = Vector::Zero(contact_ ? contact_->size(state.piece) : structure_->size({}));
+  State state{.x = {}, .lambda = 0.0, .active_set = contact_ ? contact_->open_active_set() : ActiveSet()};
+  state.x = Vector::Zero(contact_ ? contact_->size(state.active_set) : structure_->size({}));
   if (sliding_) state = sliding_->start(deck_->path.step);
   if (!ramp_structure_) return with_kinks(std::move(state));
   // What is constant grows from nothing along a path of their own, contacts included.
@@ -344,7 +343,7 @@ std::optional<State> Model::start(std::string& reason) const {
     const bool falls = sliding_ramp_ && !loose_holds_.empty() && state.lambda != 1.0 && laid < most_laid;
     auto lying = falls ? sliding_ramp_->with_strands_come_to_lie(state, 1.0) : std::nullopt;
     if (!lying) continue;
-    lying->piece = lying->piece.with_kinks_of(state.piece);
+    lying->active_set = lying->active_set.with_kinks_of(state.active_set);
     tracer.emplace(*ramp, std::move(*lying), options);
     ++laid;
   }
@@ -371,7 +370,7 @@ std::optional<State> Model::start(std::string& reason) const {
 State Model::begun_from(const State& state) const {
   if (!sliding_) return state;
   State begun = sliding_->with_flat_parts_loaded(sliding_->adopted(state), deck_->path.step);
-  begun.piece = begun.piece.with_kinks_of(state.piece);
+  begun.active_set = begun.active_set.with_kinks_of(state.active_set);
   return begun;
 }
 
@@ -387,7 +386,7 @@ std::optional<Index> Model::unstable_under_dead_load(const PathPoint& point) con
   constexpr double vanishing = 1e-6;  // of the parts of a rate
   if (moved_.empty() || !point.count.unstable) return std::nullopt;
   double rate = 0.0, size = 0.0;
-  for (const MovedFreedom& moved : moved_) {
+  for (const MovedDof& moved : moved_) {
     const Row row = moved.reaction->gradient(point.state);
     const Vector parts = row.dx.cwiseProduct(point.tangent.dx);
     rate += moved.rate * (parts.sum() + row.dlambda * point.tangent.dlambda);
@@ -403,10 +402,10 @@ const ContactQuery* Model::contacts() const {
   return contact_.get();
 }
 
-// A pinch is one contact of the piece and two of the user.
+// A pinch is one contact of the active set and two of the user.
 Index Model::closed_contacts(const State& state) const {
-  const std::size_t pinches = sliding_ ? sliding_layout(state.piece).pinched_points().size() : 0;
-  return state.piece.closed_count() + static_cast<Index>(pinches);
+  const std::size_t pinches = sliding_ ? sliding_layout(state.active_set).pinched_points().size() : 0;
+  return state.active_set.closed_count() + static_cast<Index>(pinches);
 }
 
 }  // namespace arcwall

@@ -145,11 +145,11 @@ class Model {
   std::unique_ptr<KinkedSprings> kinked_, kinked_ramp_;  // where laws of springs have kinks
   std::unique_ptr<Body> ramp_body_;                      // whose stretches those of the ramp are
   std::vector<MonitorColumn> monitors_;
-  struct MovedFreedom {
+  struct MovedDof {
     double rate;                                 // by λ
     std::shared_ptr<const Observable> reaction;  // of the support
   };
-  std::vector<MovedFreedom> moved_;
+  std::vector<MovedDof> moved_;
   TraceOptions options_;
   std::vector<Watch> watched_;
   ExploreOptions explore_;

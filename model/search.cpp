@@ -223,7 +223,7 @@ class SearchAt {
   Matrix modes(const Vector& x) const {
     const Structure& structure = model_.structure();
     Linearization at;
-    structure.linearize({.x = x, .lambda = record_.lambda, .piece = {}}, at);
+    structure.linearize({.x = x, .lambda = record_.lambda, .active_set = {}}, at);
     const auto solver = model_.options().factorization();
     if (!at.K.coeffs().allFinite() || solver->factorize(at.K, {}) != FactorStatus::ok) return {};
     return *near_null(*solver, at.K, structure.weights({}), modes_of_each, Convergence::loose).vectors;

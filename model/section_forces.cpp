@@ -37,9 +37,9 @@ std::pair<AxisCurve, double> axis_between(const ElementNode& a, const ElementNod
 
 // What the nodes exert on an element, per local unknown. Loads along a bar act at its ends.
 Vector element_forces(const Structure& structure, Index e, const State& state, bool loads) {
-  const auto freedoms = structure.element_freedoms(e);
-  Vector u(static_cast<Index>(freedoms.size())), f(u.size());
-  for (std::size_t i = 0; i < freedoms.size(); ++i) u[static_cast<Index>(i)] = structure.value(state, freedoms[i]);
+  const auto dofs = structure.element_dofs(e);
+  Vector u(static_cast<Index>(dofs.size())), f(u.size());
+  for (std::size_t i = 0; i < dofs.size(); ++i) u[static_cast<Index>(i)] = structure.value(state, dofs[i]);
   structure.element(e).evaluate_at(u.data(), state.lambda, f.data(), nullptr, nullptr);
   if (!loads) return f;
   Vector part(u.size());

@@ -160,9 +160,9 @@ class StageTracing final : public Tracing {
     Index stage = 0;
     archive(stage);
     archive.require(stage == static_cast<Index>(model_.ended_stages().size()));
-    begin(stage, State{.x = Vector::Zero(model_.system().size(model_.system().open_piece())),
+    begin(stage, State{.x = Vector::Zero(model_.system().size(model_.system().open_active_set())),
                        .lambda = 0.0,
-                       .piece = model_.system().open_piece()});
+                       .active_set = model_.system().open_active_set()});
     archive(*tracing_);
   }
 

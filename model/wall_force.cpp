@@ -41,7 +41,7 @@ Row WallForce::gradient(const State& state) const {
     of = here;
     return (above - below) / (2.0 * step);
   };
-  const Vector weights = system_.weights(state.piece);
+  const Vector weights = system_.weights(state.active_set);
   const double nodes = std::max(1.0, double(weights.size()) / 3.0);
   for (Index i = 0; i < row.dx.size(); ++i)
     row.dx[i] = slope(moved.x[i], weights[i] > 0.0 ? relative / std::sqrt(nodes * weights[i])

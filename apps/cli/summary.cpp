@@ -98,7 +98,7 @@ void add_model(const Model& model, Lines& lines) {
                                      member.elements, member.elements == 1 ? "element" : "elements"));
   for (const deck::Support& support : deck.supports) {
     std::vector<std::string> directions;
-    for (const Freedom direction : support.directions)
+    for (const Dof direction : support.directions)
       directions.push_back(deck::text_of(deck::direction_words, direction));
     lines.add("supports", fmt::format("{}: {}", support.point, fmt::join(directions, ", ")));
   }

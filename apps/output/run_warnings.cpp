@@ -116,7 +116,7 @@ namespace {
 
 // By which an element turns [rad].
 double greatest_turn(const State& state, Index strands) {
-  const SlidingMesh& mesh = sliding_layout(state.piece).mesh();
+  const SlidingMesh& mesh = sliding_layout(state.active_set).mesh();
   const MeshState now = mesh_state_of(state);
   double greatest = 0.0;
   for (Index strand = 0; strand < strands; ++strand)

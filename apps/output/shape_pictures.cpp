@@ -325,25 +325,23 @@ void add_load(const deck::Deck& deck, const deck::Pressure& load, double factor,
 void add_spring(const deck::Deck& deck, const deck::Spring& spring, Scene& to) {
   if (const auto* along = std::get_if<deck::Foundation>(&spring.kind)) {
     constexpr int drawn = 9;
-    const auto acts = [&](double stiffness, Freedom direction) {
+    const auto acts = [&](double stiffness, Dof direction) {
       return along->law ? along->law->direction == direction : stiffness > 0.0;
     };
     for (int i = 0; i < drawn; ++i)
       if (const auto at = position_of(deck, to.shape, {.name = along->member, .fraction = (i + 0.5) / drawn}))
-        to.springs.push_back({.at = *at, .x = acts(along->x, Freedom::x), .z = acts(along->z, Freedom::z)});
+        to.springs.push_back({.at = *at, .x = acts(along->x, Dof::x), .z = acts(along->z, Dof::z)});
     return;
   }
   const auto add = [&](const deck::Place& from, const deck::Place* other, const deck::Stiffness& k,
                        const std::optional<deck::TableLaw>& law) {
     const auto at = position_of(deck, to.shape, from);
     if (!at) return;
-    const auto acts = [&](double stiffness, Freedom direction) {
+    const auto acts = [&](double stiffness, Dof direction) {
       return law ? law->direction == direction : stiffness > 0.0;
     };
-    to.springs.push_back({.at = *at,
-                          .x = acts(k.x, Freedom::x),
-                          .z = acts(k.z, Freedom::z),
-                          .rotation = acts(k.rotation, Freedom::rotation)});
+    to.springs.push_back(
+        {.at = *at, .x = acts(k.x, Dof::x), .z = acts(k.z, Dof::z), .rotation = acts(k.rotation, Dof::rotation)});
     if (other != nullptr) to.springs.back().to = position_of(deck, to.shape, *other);
   };
   if (const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind)) {
@@ -364,11 +362,11 @@ std::vector<std::pair<std::string, HeldPoint>> held_points(const deck::Deck& dec
     return found != points.end() ? found->second : points.emplace_back(point, HeldPoint{}).second;
   };
   for (const deck::Support& support : deck.supports)
-    for (const Freedom direction : support.directions) {
+    for (const Dof direction : support.directions) {
       HeldPoint& held = at(support.point);
-      held.x = held.x || direction == Freedom::x;
-      held.z = held.z || direction == Freedom::z;
-      held.rotation = held.rotation || direction == Freedom::rotation;
+      held.x = held.x || direction == Dof::x;
+      held.z = held.z || direction == Dof::z;
+      held.rotation = held.rotation || direction == Dof::rotation;
     }
   for (const deck::Prescribed& moved : deck.prescribed) {
     HeldPoint& held = at(moved.point);

@@ -16,7 +16,7 @@ std::size_t change_before(std::span<const RecordPoint> points, std::size_t point
                           const std::function<bool(Index)>& makes_stretch) {
   const auto has_contacts_of = [&](std::size_t i) {
     return points[i].branch == points[point].branch &&
-           points[i].state.piece.layout() == points[point].state.piece.layout();
+           points[i].state.active_set.layout() == points[point].state.active_set.layout();
   };
   for (std::size_t i = point; i > 0 && has_contacts_of(i - 1); --i)
     if (points[i - 1].event) return makes_stretch(points[i - 1].step) ? i - 1 : point;
@@ -187,15 +187,15 @@ constexpr double moved_by_mesh = 1e-3;
 // path is followed on another mesh.
 bool is_remeshed(const Branch& branch, std::size_t i) {
   const RecordPoint &before = branch.points[i - 1], &point = branch.points[i];
-  return before.state.piece.layout() != point.state.piece.layout() &&
+  return before.state.active_set.layout() != point.state.active_set.layout() &&
          !branch.has_event(before.step, point.step, is_contact_event);
 }
 
 // Whether the mesh gets a node where it touches, or parts on a wall join, or one gathers to a point: that is known on
-// the piece ahead alone, so that the points before may lie beyond it by the error of the elements.
+// the active set ahead alone, so that the points before may lie beyond it by the error of the elements.
 bool is_known_ahead(const Branch& branch, std::size_t i) {
   const RecordPoint &before = branch.points[i - 1], &point = branch.points[i];
-  return before.state.piece.layout() != point.state.piece.layout() &&
+  return before.state.active_set.layout() != point.state.active_set.layout() &&
          branch.has_event(point.step, point.step, [](const ListedEvent& event) {
            return event.kind == "contact-closes" || event.kind == "contact-shrinks" || event.kind == "contacts-merge";
          });

@@ -47,15 +47,15 @@ class ContactSections {
 };
 
 NodeFunction node_unknowns(const Structure& structure, const MemberSection& section, const State& state) {
-  std::vector<Index> freedoms{structure.freedom(section.node, Freedom::x), structure.freedom(section.node, Freedom::z)};
-  if (section.rotation) freedoms.push_back(*section.rotation);
-  if (section.thickness) freedoms.insert(freedoms.end(), {section.thickness->e, section.thickness->xi});
-  NodeFunction function{.at = Vector(static_cast<Index>(freedoms.size()))};
+  std::vector<Index> dofs{structure.dof(section.node, Dof::x), structure.dof(section.node, Dof::z)};
+  if (section.rotation) dofs.push_back(*section.rotation);
+  if (section.thickness) dofs.insert(dofs.end(), {section.thickness->e, section.thickness->xi});
+  NodeFunction function{.at = Vector(static_cast<Index>(dofs.size()))};
   function.steps = Vector::Constant(function.at.size(), touch_difference);
   function.steps.head<2>() *= structure.length_scale();
-  for (std::size_t i = 0; i < freedoms.size(); ++i) {
-    function.unknowns.push_back(structure.unknown(freedoms[i]).value_or(-1));
-    function.at[static_cast<Index>(i)] = structure.value(state, freedoms[i]);
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    function.unknowns.push_back(structure.unknown(dofs[i]).value_or(-1));
+    function.at[static_cast<Index>(i)] = structure.value(state, dofs[i]);
   }
   if (section.thickness) function.steps[4] /= structure.length_scale();
   return function;
@@ -109,9 +109,9 @@ Touch node_touch(const NodeContacts& all, Index j) {
 // What two walls without clearance exert is one unknown, of either sign, which stands where the first of them does.
 void read_forces(const Model& model, const State& state, Touches& touches) {
   Index next = model.structure().size({});
-  for (std::size_t j = 0; j < state.piece.contacts(); ++j) {
+  for (std::size_t j = 0; j < state.active_set.contacts(); ++j) {
     Touch& touch = touches.all[j];
-    touch.closed = state.piece[j] != 0;
+    touch.closed = state.active_set[j] != 0;
     const auto opposite = model.contact()->candidate(static_cast<Index>(j)).opposite();
     if (!touch.closed || (opposite && *opposite < static_cast<Index>(j))) continue;
     const double force = state.x[next++];
@@ -144,7 +144,7 @@ void find_opposite(double length, std::vector<Touch>& touches) {
 Touches node_touches(const Model& model, const std::vector<PlainWall>& walls, const State& state) {
   Touches touches;
   const NodeContacts contacts{.model = model, .walls = walls, .state = state};
-  for (std::size_t j = 0; j < state.piece.contacts(); ++j)
+  for (std::size_t j = 0; j < state.active_set.contacts(); ++j)
     touches.all.push_back(node_touch(contacts, static_cast<Index>(j)));
   read_forces(model, state, touches);
   find_opposite(model.structure().length_scale(), touches.all);

@@ -43,7 +43,7 @@ Vector roundoff(const PointAtHand& at) {
 Vector uncertainty(const PointAtHand& at) {
   const State& state = at.point.state;
   Vector off = roundoff(at);
-  const Vector weights = at.model.system().weights(state.piece).head(off.size());
+  const Vector weights = at.model.system().weights(state.active_set).head(off.size());
   for (Index i = 0; i < off.size(); ++i)
     if (weights[i] > 0.0) off[i] += distance_left / std::sqrt(weights[i]);
   return off;
@@ -54,7 +54,7 @@ double smallest_force(const PointAtHand& at) { return 1e-11 * at.scales.force; }
 }  // namespace
 
 bool is_well_formed(const Model& model, const State& state) {
-  return model.system().size(state.piece) == state.x.size() && state.x.allFinite() && std::isfinite(state.lambda);
+  return model.system().size(state.active_set) == state.x.size() && state.x.allFinite() && std::isfinite(state.lambda);
 }
 
 PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vector<PlainWall>& walls,

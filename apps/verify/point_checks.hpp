@@ -26,7 +26,7 @@ struct PointAtHand {
   std::vector<Matrix> stiffness{};  ///< of each potential
 };
 
-/// Whether the state has as many finite unknowns as its piece asks for.
+/// Whether the state has as many finite unknowns as its active set asks for.
 bool is_well_formed(const Model& model, const State& state);
 
 PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vector<PlainWall>& walls,
@@ -47,13 +47,13 @@ struct Energy {
 };
 Energy energy(const PointAtHand& at);
 
-/// Which eigenvalues of a stiffness whose diagonal is one are as good as zero. Where a freedom may itself be critical
-/// its diagonal cannot be made one: an entry that is less than a part of what its elements contribute is compared with
-/// that part.
+/// Which eigenvalues of a stiffness whose diagonal is one are as good as zero. Where a degree of freedom may itself be
+/// critical its diagonal cannot be made one: an entry that is less than a part of what its elements contribute is
+/// compared with that part.
 struct ZeroEigenvalue {
   double least = 0.0;     ///< those up to it
   double of_next = 0.0;   ///< and those up to this part of the second smallest
-  double of_parts = 0.0;  ///< the part; 0 where no freedom is critical by itself
+  double of_parts = 0.0;  ///< the part; 0 where no degree of freedom is critical by itself
 };
 
 /// How many negative eigenvalues the second variation may have: some are as good as zero, some contacts carry nothing.

@@ -19,15 +19,15 @@ namespace {
 // and round-off of the energy over the step of the order 10⁻¹² of the forces.
 constexpr double relative_step = 1e-4;
 
-double step_of(Freedom freedom, double length) {
-  switch (freedom) {
-    case Freedom::x:
-    case Freedom::z:
+double step_of(Dof dof, double length) {
+  switch (dof) {
+    case Dof::x:
+    case Dof::z:
       return relative_step * length;
-    case Freedom::rotation:
-    case Freedom::thickness:
+    case Dof::rotation:
+    case Dof::thickness:
       return relative_step;
-    case Freedom::thickness2:
+    case Dof::thickness2:
       return relative_step / length;
   }
   return relative_step;
@@ -47,22 +47,22 @@ std::vector<double> element_lengths(const Structure& structure) {
   return lengths;
 }
 
-using Rates = std::map<Index, double>;  // by λ, of the freedoms that supports move
+using Rates = std::map<Index, double>;  // by λ, of the degrees of freedom that supports move
 
 Rates rates_of_supports(const Structure& structure) {
   Rates rates;
-  structure.nodal_terms().for_each_moved_support([&](Index freedom, double rate) { rates[freedom] = rate; });
+  structure.nodal_terms().for_each_moved_support([&](Index dof, double rate) { rates[dof] = rate; });
   return rates;
 }
 
-double rate_of(const Rates& rates, Index freedom) {
-  const auto found = rates.find(freedom);
+double rate_of(const Rates& rates, Index dof) {
+  const auto found = rates.find(dof);
   return found == rates.end() ? 0.0 : found->second;
 }
 
 // The kind of each local unknown, by how many a node has: x, z, then a rotation, then changes of thickness.
-Freedom kind_of(std::size_t local, std::size_t stride) {
-  constexpr Freedom kinds[] = {Freedom::x, Freedom::z, Freedom::rotation, Freedom::thickness, Freedom::thickness2};
+Dof kind_of(std::size_t local, std::size_t stride) {
+  constexpr Dof kinds[] = {Dof::x, Dof::z, Dof::rotation, Dof::thickness, Dof::thickness2};
   return kinds[local % stride];
 }
 
@@ -79,8 +79,8 @@ void limit_steps(double length, std::size_t stride, Potential& potential) {
   Vector along(here.size());  // greatest change of a nodal force with each unknown
   double stretching = 0.0, bending = 0.0;
   const auto is_place = [&](Index i) {
-    const Freedom kind = kind_of(static_cast<std::size_t>(i), stride);
-    return kind == Freedom::x || kind == Freedom::z;
+    const Dof kind = kind_of(static_cast<std::size_t>(i), stride);
+    return kind == Dof::x || kind == Dof::z;
   };
   for (Index i = 0; i < here.size(); ++i) {
     constexpr double shorter = 1e-4;  // of the steps that are none too long for most
@@ -92,8 +92,7 @@ void limit_steps(double length, std::size_t stride, Potential& potential) {
     for (Index j = 0; j < change.size(); ++j)
       if (is_place(j)) along[i] = std::max(along[i], std::abs(change[j]));
     if (is_place(i)) stretching = std::max(stretching, along[i]);
-    if (kind_of(static_cast<std::size_t>(i), stride) == Freedom::rotation)
-      bending = std::max(bending, std::abs(change[i]));
+    if (kind_of(static_cast<std::size_t>(i), stride) == Dof::rotation) bending = std::max(bending, std::abs(change[i]));
   }
   if (bending == 0.0 || stretching == 0.0) return;
   const double turning = std::sqrt(part * bending / stretching);  // of a place [length]
@@ -126,16 +125,16 @@ struct LoadedElement {
 
 Potential fixed_potential(const Structure& structure, Index e, const State& state, std::size_t stride, double length,
                           const Rates& rates) {
-  const auto freedoms = structure.element_freedoms(e);
-  const auto n = static_cast<Index>(freedoms.size());
+  const auto dofs = structure.element_dofs(e);
+  const auto n = static_cast<Index>(dofs.size());
   LoadedElement loaded{.element = &structure.element(e), .loads = {}, .lambda = state.lambda};
   for (const std::uint32_t i : structure.loads_of_element(e))
     loaded.loads.push_back(structure.element_loads()[i].potential.get());
   Potential potential{.at = Vector(n), .steps = Vector(n), .rates = Vector::Zero(n)};
-  for (std::size_t i = 0; i < freedoms.size(); ++i) {
-    potential.rates[static_cast<Index>(i)] = rate_of(rates, freedoms[i]);
-    potential.unknowns.push_back(structure.unknown(freedoms[i]).value_or(-1));
-    potential.at[static_cast<Index>(i)] = structure.value(state, freedoms[i]);
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    potential.rates[static_cast<Index>(i)] = rate_of(rates, dofs[i]);
+    potential.unknowns.push_back(structure.unknown(dofs[i]).value_or(-1));
+    potential.at[static_cast<Index>(i)] = structure.value(state, dofs[i]);
     potential.steps[static_cast<Index>(i)] = step_of(kind_of(i, stride), length);
   }
   potential.energy = [loaded](const Vector& u) { return loaded.energy(u); };
@@ -209,39 +208,39 @@ std::vector<Potential> sliding_potentials(const Model& model, const State& state
   return all;
 }
 
-// visit(unknown, load, displacement) for each freedom that carries one; the unknown is −1 where a support holds it.
+// visit(unknown, load, displacement) for each degree of freedom that carries one; the unknown is −1 where a support
+// holds it.
 template <class Visit>
 void for_each_point_load(const Model& model, const State& state, const Visit& visit) {
   const Structure& structure = model.structure();
-  std::set<Index> freedoms;
+  std::set<Index> dofs;
   for (Index e = 0; e < structure.element_count(); ++e) {
-    const ShiftedIndices of_element = structure.element_freedoms(e);
-    for (std::size_t i = 0; i < of_element.size(); ++i) freedoms.insert(of_element[i]);
+    const ShiftedIndices of_element = structure.element_dofs(e);
+    for (std::size_t i = 0; i < of_element.size(); ++i) dofs.insert(of_element[i]);
   }
-  for (const Index freedom : freedoms) {
-    const double load = structure.nodal_terms().load(freedom).at(state.lambda);
+  for (const Index dof : dofs) {
+    const double load = structure.nodal_terms().load(dof).at(state.lambda);
     if (load == 0.0) continue;
     if (const SlidingStructure* body = model.sliding_structure(); body == nullptr) {
-      visit(structure.unknown(freedom).value_or(-1), load, structure.value(state, freedom));
+      visit(structure.unknown(dof).value_or(-1), load, structure.value(state, dof));
     } else {
-      visit(body->unknown(sliding_mesh(state), freedom).value_or(-1), load,
-            body->value(sliding_mesh(state), mesh_state_of(state), freedom));
+      visit(body->unknown(sliding_mesh(state), dof).value_or(-1), load,
+            body->value(sliding_mesh(state), mesh_state_of(state), dof));
     }
   }
 }
 
 // --- springs, as the deck has them ----------------------------------------------------------------------------------
 
-// A freedom of a place; none if there is no such.
-std::optional<Index> freedom_of(const Structure& structure, const deck::Deck& deck, const deck::Place& place,
-                                Freedom which) {
-  const bool turns = which == Freedom::rotation;
+// A degree of freedom of a place; none if there is no such.
+std::optional<Index> dof_of(const Structure& structure, const deck::Deck& deck, const deck::Place& place, Dof which) {
+  const bool turns = which == Dof::rotation;
   for (std::size_t m = 0; m < deck.members.size(); ++m) {
     const deck::Member& member = deck.members[m];
     const MemberMesh& mesh = structure.members()[m];
     const std::size_t last = mesh.nodes.size() - 1;
     const auto at = [&](std::size_t k) {
-      return turns ? mesh.rotations[k] : std::optional(structure.freedom(mesh.nodes[k], which));
+      return turns ? mesh.rotations[k] : std::optional(structure.dof(mesh.nodes[k], which));
     };
     if (place.fraction) {
       if (member.name == place.name) return at(static_cast<std::size_t>(std::lround(*place.fraction * double(last))));
@@ -292,12 +291,12 @@ StraightPiece straight_piece(const deck::TableLaw& law, double stretch, const St
   constexpr double at_kink = 1e-9;  // of the table's width
   const auto& u = law.displacement;
   const double near = at_kink * (u.back() - u.front());
-  std::size_t piece = 0, kink = state.piece.contacts() + first_kink;  // points of the table that are passed
+  std::size_t piece = 0, kink = state.active_set.contacts() + first_kink;  // points of the table that are passed
   for (std::size_t i = 0; i < u.size(); ++i) {
     bool passed = stretch >= u[i];
     const bool kinked = is_kink(law, i);
-    if (kinked && state.piece.kinks() > 0 && std::abs(stretch - u[i]) <= near)
-      passed = (state.piece[kink] != 0) == (u[i] >= 0.0);
+    if (kinked && state.active_set.kinks() > 0 && std::abs(stretch - u[i]) <= near)
+      passed = (state.active_set[kink] != 0) == (u[i] >= 0.0);
     kink += kinked ? 1 : 0;
     if (passed) piece = i + 1;
   }
@@ -321,23 +320,23 @@ std::size_t kinks_before(const deck::Deck& deck, const deck::Spring& spring) {
   return kinks;
 }
 
-// The potential of a spring between two freedoms, or of one to the ground, by its stretch: ½ k s² or that of a law.
+// The potential of a spring between two degrees of freedom, or of one to the ground, by its stretch: ½ k s² or that of
+// a law.
 Potential spring_potential(const Model& model, const State& state, double k, const deck::TableLaw* law,
-                           std::size_t first_kink, const std::vector<Index>& freedoms, Freedom which) {
-  const auto n = static_cast<Index>(freedoms.size());
+                           std::size_t first_kink, const std::vector<Index>& dofs, Dof which) {
+  const auto n = static_cast<Index>(dofs.size());
   Potential potential{.at = Vector(n),
                       .steps = Vector::Constant(n, step_of(which, model.structure().length_scale())),
                       .rates = Vector::Zero(n)};
   const Rates rates = rates_of_supports(model.structure());
   for (Index i = 0; i < n; ++i) {
-    const Index freedom = freedoms[static_cast<std::size_t>(i)];
-    potential.rates[i] = rate_of(rates, freedom);
+    const Index dof = dofs[static_cast<std::size_t>(i)];
+    potential.rates[i] = rate_of(rates, dof);
     const SlidingStructure* body = model.sliding_structure();
-    const auto unknown =
-        body != nullptr ? body->unknown(sliding_mesh(state), freedom) : model.structure().unknown(freedom);
+    const auto unknown = body != nullptr ? body->unknown(sliding_mesh(state), dof) : model.structure().unknown(dof);
     potential.unknowns.push_back(unknown.value_or(-1));
-    potential.at[i] = body != nullptr ? body->value(sliding_mesh(state), mesh_state_of(state), freedom)
-                                      : model.structure().value(state, freedom);
+    potential.at[i] = body != nullptr ? body->value(sliding_mesh(state), mesh_state_of(state), dof)
+                                      : model.structure().value(state, dof);
   }
   const auto stretch = [n](const Vector& u) { return n == 1 ? u[0] : u[1] - u[0]; };
   if (law != nullptr && law->interpolation == SpringLaw::Interpolation::linear) {
@@ -364,7 +363,7 @@ Potential spring_potential(const Model& model, const State& state, double k, con
 // Of a spring at points in one direction; empty where it does not act, and of a foundation, which is part of its
 // elements.
 std::optional<Potential> spring_potential(const Model& model, const State& state, const deck::Spring& spring,
-                                          Freedom which) {
+                                          Dof which) {
   std::vector<deck::Place> places;
   deck::Stiffness stiffness;
   const deck::TableLaw* law = nullptr;
@@ -377,18 +376,18 @@ std::optional<Potential> spring_potential(const Model& model, const State& state
     stiffness = between->stiffness;
     if (between->law) law = &*between->law;
   }
-  const double k = which == Freedom::x ? stiffness.x : which == Freedom::z ? stiffness.z : stiffness.rotation;
-  std::vector<Index> freedoms;
+  const double k = which == Dof::x ? stiffness.x : which == Dof::z ? stiffness.z : stiffness.rotation;
+  std::vector<Index> dofs;
   for (const deck::Place& place : places)
-    if (const auto freedom = freedom_of(model.structure(), model.deck(), place, which)) freedoms.push_back(*freedom);
+    if (const auto dof = dof_of(model.structure(), model.deck(), place, which)) dofs.push_back(*dof);
   const bool acts = law != nullptr ? law->direction == which : k > 0.0;
-  if (!acts || places.empty() || freedoms.size() != places.size()) return std::nullopt;
-  return spring_potential(model, state, k, law, kinks_before(model.deck(), spring), freedoms, which);
+  if (!acts || places.empty() || dofs.size() != places.size()) return std::nullopt;
+  return spring_potential(model, state, k, law, kinks_before(model.deck(), spring), dofs, which);
 }
 
 void add_springs(const Model& model, const State& state, std::vector<Potential>& to) {
   for (const deck::Spring& spring : model.deck().springs)
-    for (const Freedom which : {Freedom::x, Freedom::z, Freedom::rotation})
+    for (const Dof which : {Dof::x, Dof::z, Dof::rotation})
       if (auto potential = spring_potential(model, state, spring, which)) to.push_back(std::move(*potential));
 }
 
@@ -401,14 +400,13 @@ void add_pressed_ends(const Model& model, const State& state, std::vector<Potent
                         .steps = Vector::Constant(2, relative_step * model.structure().length_scale()),
                         .rates = Vector::Zero(2)};
     const Rates rates = rates_of_supports(model.structure());
-    for (const Index freedom : {end.x, end.z}) {
+    for (const Index dof : {end.x, end.z}) {
       const Index i = static_cast<Index>(potential.unknowns.size());
-      potential.rates[i] = rate_of(rates, freedom);
-      const auto unknown =
-          body != nullptr ? body->unknown(sliding_mesh(state), freedom) : model.structure().unknown(freedom);
+      potential.rates[i] = rate_of(rates, dof);
+      const auto unknown = body != nullptr ? body->unknown(sliding_mesh(state), dof) : model.structure().unknown(dof);
       potential.unknowns.push_back(unknown.value_or(-1));
-      potential.at[i] = body != nullptr ? body->value(sliding_mesh(state), mesh_state_of(state), freedom)
-                                        : model.structure().value(state, freedom);
+      potential.at[i] = body != nullptr ? body->value(sliding_mesh(state), mesh_state_of(state), dof)
+                                        : model.structure().value(state, dof);
     }
     const double by_x = potential.unknowns[0] >= 0 ? -1.0 : 0.0, by_z = potential.unknowns[1] >= 0 ? 1.0 : 0.0;
     const double p = end.excess.at(state.lambda);
@@ -456,7 +454,7 @@ std::vector<Potential> potentials(const Model& model, const State& state) {
   return all;
 }
 
-std::optional<double> spring_force(const Model& model, const State& state, const deck::Spring& spring, Freedom which) {
+std::optional<double> spring_force(const Model& model, const State& state, const deck::Spring& spring, Dof which) {
   const auto potential = spring_potential(model, state, spring, which);
   if (!potential) return std::nullopt;
   const Vector gradient = potential->gradient(potential->at);
@@ -496,17 +494,17 @@ std::string name_of_node(const Structure& structure, Index node) {
   return std::to_string(node);
 }
 
-std::string word(Freedom freedom) {
-  switch (freedom) {
-    case Freedom::x:
+std::string word(Dof dof) {
+  switch (dof) {
+    case Dof::x:
       return "x";
-    case Freedom::z:
+    case Dof::z:
       return "z";
-    case Freedom::rotation:
+    case Dof::rotation:
       return "rotation";
-    case Freedom::thickness:
+    case Dof::thickness:
       return "thickness";
-    case Freedom::thickness2:
+    case Dof::thickness2:
       return "thickness2";
   }
   return {};
@@ -516,8 +514,8 @@ std::string word(Freedom freedom) {
 
 std::string name_of_unknown(const Model& model, const State& state, Index unknown) {
   if (model.sliding() == nullptr) {
-    const auto [node, freedom] = model.structure().meaning(unknown);
-    return word(freedom) + " at " + name_of_node(model.structure(), node);
+    const auto [node, dof] = model.structure().meaning(unknown);
+    return word(dof) + " at " + name_of_node(model.structure(), node);
   }
   const SlidingMesh& mesh = sliding_mesh(state);
   for (Index strand = 0; strand < model.sliding_structure()->strands(); ++strand)

@@ -24,7 +24,7 @@ std::vector<Potential> potentials(const Model& model, const State& state);
 
 /// The force of a spring at points in one direction, as its deck has it, on its second place where it has two; empty
 /// where it does not act.
-std::optional<double> spring_force(const Model& model, const State& state, const deck::Spring& spring, Freedom which);
+std::optional<double> spring_force(const Model& model, const State& state, const deck::Spring& spring, Dof which);
 
 /// The force of a law at a stretch, by formulas of its own.
 double table_force(const deck::TableLaw& law, double stretch);

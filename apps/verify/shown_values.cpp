@@ -44,11 +44,11 @@ double gap_on_nodes(const Model& model, const State& state, const PlainWall& wal
   const MemberMesh& mesh = structure.members()[at.member];
   const MemberSection section = mesh.section(at.node);
   const double half = 0.5 * mesh.height.value_or(0.0);
-  std::vector<Index> freedoms{structure.freedom(section.node, Freedom::x), structure.freedom(section.node, Freedom::z)};
-  if (section.rotation) freedoms.push_back(*section.rotation);
-  if (section.thickness) freedoms.insert(freedoms.end(), {section.thickness->e, section.thickness->xi});
-  Vector u(static_cast<Index>(freedoms.size()));
-  for (std::size_t i = 0; i < freedoms.size(); ++i) u[static_cast<Index>(i)] = structure.value(state, freedoms[i]);
+  std::vector<Index> dofs{structure.dof(section.node, Dof::x), structure.dof(section.node, Dof::z)};
+  if (section.rotation) dofs.push_back(*section.rotation);
+  if (section.thickness) dofs.insert(dofs.end(), {section.thickness->e, section.thickness->xi});
+  Vector u(static_cast<Index>(dofs.size()));
+  for (std::size_t i = 0; i < dofs.size(); ++i) u[static_cast<Index>(i)] = structure.value(state, dofs[i]);
   SectionPoint point{.node = structure.position(section.node),
                      .shape_angle = section.shape.angle,
                      .axis_angle = section.axis.angle,
@@ -89,14 +89,14 @@ std::optional<double> gap(const PointAtHand& at, const deck::Monitor& monitor) {
 
 // --- springs --------------------------------------------------------------------------------------------------------
 
-Freedom direction_of(deck::Component component) {
-  if (component == deck::Component::force_x) return Freedom::x;
-  return component == deck::Component::force_z ? Freedom::z : Freedom::rotation;
+Dof direction_of(deck::Component component) {
+  if (component == deck::Component::force_x) return Dof::x;
+  return component == deck::Component::force_z ? Dof::z : Dof::rotation;
 }
 
 double pressure_of(const deck::Foundation& foundation, const Vec2& displacement) {
   if (!foundation.law) return std::hypot(foundation.x * displacement.x(), foundation.z * displacement.y());
-  const bool along_x = foundation.law->direction == Freedom::x;
+  const bool along_x = foundation.law->direction == Dof::x;
   return std::abs(table_force(*foundation.law, along_x ? displacement.x() : displacement.y()));
 }
 

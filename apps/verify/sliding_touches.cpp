@@ -183,7 +183,7 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
     const auto [strand, position] = at->mesh.breakpoint(static_cast<Index>(k));
     const SlidingNode node{.strand = strand, .position = position};
     const PlainWall& wall = wall_of_obstacle(*at, walls, points[k].obstacle);
-    const Touch& touch = add(wall, node, state.piece[k] != 0);
+    const Touch& touch = add(wall, node, state.active_set[k] != 0);
     const AxisPlace axis = at->mesh.node(strand, position, at->now);
     std::optional<SlidingContact::PinchedPlace> pinch;
     if (points[k].is_pinched()) pinch = pinch_of(*at, wall.deck().name, axis.position);
@@ -210,7 +210,7 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
   for (std::size_t i = 0; i < ends.size(); ++i)
     add(wall_of_obstacle(*at, walls, ends[i].obstacle),
         {.strand = ends[i].strand, .position = ends[i].last ? at->mesh.nodes(ends[i].strand) - 1 : 0},
-        state.piece[points.size() + i] != 0);
+        state.active_set[points.size() + i] != 0);
   for (const SlidingContactLayout::PressedNode& node : at->on.pressed_nodes()) {
     add(wall_of_obstacle(*at, walls, node.obstacle), {.strand = node.strand, .position = node.position}, true);
     touches.all.back().listed = false;

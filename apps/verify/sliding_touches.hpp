@@ -18,7 +18,7 @@ struct Sliding {
   const Model& model;
   const State& state;
   const SlidingStructure& body = *model.sliding_structure();
-  const SlidingContactLayout& on = sliding_layout(state.piece);
+  const SlidingContactLayout& on = sliding_layout(state.active_set);
   const SlidingMesh& mesh = on.mesh();
   MeshState now = mesh_state_of(state);
   MovedUnknowns x{Vector(now.x)};

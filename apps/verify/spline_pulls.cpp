@@ -18,7 +18,7 @@ struct Part {
 std::vector<Part> parts_of(const Sliding& at) {
   std::vector<Part> parts;
   const auto& nodes = at.on.pressed_nodes();
-  const auto closed = at.state.piece.closed_count();
+  const auto closed = at.state.active_set.closed_count();
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (i > 0 && nodes[i].segment == nodes[i - 1].segment) {
       parts.back().last = nodes[i].position;

@@ -116,7 +116,7 @@ std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, co
     const std::size_t i = bound_number<ClampBound>(
         *on, [&](const ClampBound& clamp) { return clamp.strand() == part->strand() && clamp.last() == part->last(); });
     if (!transition.quantity) transition.quantity = std::make_shared<BoundValue>(setting, i);
-    transition.contacts.push_back(static_cast<Index>(transition.guess.get().piece.size() + i));
+    transition.contacts.push_back(static_cast<Index>(transition.guess.get().active_set.size() + i));
   }
   return {
       transition,

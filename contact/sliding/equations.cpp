@@ -151,7 +151,7 @@ void lay_out(const SlidingSetting& setting, const SlidingState& at, Linearizatio
     out.energetic.push_back(at.layout.is_pinched(static_cast<std::size_t>(k)));
   }
   out.K = with_rows_behind(out.inner->K, entries, at.index.multipliers());
-  out.pattern_of = at.state.piece;
+  out.pattern_of = at.state.active_set;
 }
 
 // F, K, F_λ and B of the mesh in the places that they have among all equations.
@@ -180,10 +180,10 @@ void residual(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<
 void linearize(const SlidingSetting& setting, const SlidingState& at, Linearization& out) {
   if (!out.inner) out.inner = std::make_unique<Linearization>();
   Linearization& mesh = *out.inner;
-  if (!out.pattern_of || out.pattern_of->layout() != at.state.piece.layout()) mesh.pattern_of.reset();
+  if (!out.pattern_of || out.pattern_of->layout() != at.state.active_set.layout()) mesh.pattern_of.reset();
   at.mesh.linearize(at.now, mesh);
-  mesh.pattern_of = at.state.piece;
-  if (!out.pattern_of || *out.pattern_of != at.state.piece) lay_out(setting, at, out);
+  mesh.pattern_of = at.state.active_set;
+  if (!out.pattern_of || *out.pattern_of != at.state.active_set) lay_out(setting, at, out);
 
   take_over(mesh, at, out);
   out.border_rates = border_rates(setting, at);

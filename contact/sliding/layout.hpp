@@ -103,7 +103,7 @@ class SlidingContactLayout final : public SlidingLayout {
   /// The points at pinches, ascending.
   const std::vector<std::size_t>& pinched_points() const { return pinched_points_; }
 
-  /// Whether a contact of a piece with this layout is a point at a pinch.
+  /// Whether a contact of an active set with this layout is a point at a pinch.
   bool is_pinched(std::size_t contact) const { return contact < points_.size() && points_[contact].is_pinched(); }
 
   const std::vector<Segment>& segments() const { return segments_; }
@@ -183,9 +183,9 @@ class SlidingContactLayout final : public SlidingLayout {
   std::vector<std::unique_ptr<const sliding::ValidityBound>> bounds_;
 };
 
-/// The layout of a piece of sliding contact.
-inline const SlidingContactLayout& sliding_layout(const Piece& piece) {
-  return static_cast<const SlidingContactLayout&>(*piece.layout());
+/// The layout of an active set of sliding contact.
+inline const SlidingContactLayout& sliding_layout(const ActiveSet& active_set) {
+  return static_cast<const SlidingContactLayout&>(*active_set.layout());
 }
 
 }  // namespace arcwall

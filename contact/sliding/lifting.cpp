@@ -189,7 +189,7 @@ bool is_left(const SlidingSetting& setting, const SlidingState& at, Index strand
 }
 
 // What is told of a strand that has left its obstacle: its ends.
-void name_ends(const SlidingSetting& setting, const Piece& ahead, Index strand, std::size_t obstacle,
+void name_ends(const SlidingSetting& setting, const ActiveSet& ahead, Index strand, std::size_t obstacle,
                std::vector<Index>& contacts) {
   const SlidingContactLayout& on = sliding_layout(ahead);
   for (const bool last : {false, true}) {
@@ -224,7 +224,7 @@ std::optional<Transition> strands_leave(const SlidingSetting& setting, const Sli
   transition.forward = {.dx = Vector::Zero(transition.guess.get().x.size()), .dlambda = arrival.forward.dlambda};
   transition.forward.dx.head(at.index.nodes) = arrival.forward.dx.head(at.index.nodes);
   for (const auto& [strand, obstacle] : leaving)
-    name_ends(setting, transition.guess.get().piece, strand, obstacle, transition.contacts);
+    name_ends(setting, transition.guess.get().active_set, strand, obstacle, transition.contacts);
   return transition;
 }
 

@@ -233,7 +233,7 @@ std::vector<Pinch> pinches_at_rest(const SlidingSetting& setting, const SlidingS
   return pinches;
 }
 
-Piece pinched_piece(const SlidingSetting& setting, const SlidingState& rest) {
+ActiveSet pinched_active_set(const SlidingSetting& setting, const SlidingState& rest) {
   LayoutEdit edit = edit_of(setting.body, rest);
   for (std::size_t i = 0; i < setting.pinches.size(); ++i) {
     const Pinch& pinch = setting.pinches[i];
@@ -245,7 +245,7 @@ Piece pinched_piece(const SlidingSetting& setting, const SlidingState& rest) {
         {.point = {.obstacle = pinch.obstacle, .pinch = i}, .strand = pinch.strand, .s = pinch.s, .closed = true},
         before, all - before);
   }
-  return mapped_onto(setting, rest, edit, layout_of(edit)).piece;
+  return mapped_onto(setting, rest, edit, layout_of(edit)).active_set;
 }
 
 }  // namespace arcwall::sliding

@@ -12,8 +12,8 @@ namespace arcwall::sliding {
 /// state without points.
 std::vector<Pinch> pinches_at_rest(const SlidingSetting& setting, const SlidingState& rest);
 
-/// The piece with a point at each pinch, closed, made of that of a state without points.
-Piece pinched_piece(const SlidingSetting& setting, const SlidingState& rest);
+/// The active set with a point at each pinch, closed, made of that of a state without points.
+ActiveSet pinched_active_set(const SlidingSetting& setting, const SlidingState& rest);
 
 /// Whether the obstacles of a pinched point hold the axis's direction there. Of knife edges the moment of the point is
 /// 0.

@@ -23,13 +23,13 @@ double motion_of(const SlidingMesh& mesh, const Direction& direction) {
 State mapped_onto(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit,
                   const std::shared_ptr<const SlidingContactLayout>& on) {
   const std::size_t points = edit.points.size(), ends = setting.free_ends.size();
-  Piece piece(points + ends, 0, on);
-  for (std::size_t k = 0; k < points; ++k) piece[k] = edit.closed[k];
-  for (std::size_t j = 0; j < ends; ++j) piece[points + j] = edit.ends_closed[j];
-  const SlidingUnknowns index(piece);
-  State out{.x = Vector::Zero(index.size()), .lambda = at.now.lambda, .piece = piece};
+  ActiveSet active_set(points + ends, 0, on);
+  for (std::size_t k = 0; k < points; ++k) active_set[k] = edit.closed[k];
+  for (std::size_t j = 0; j < ends; ++j) active_set[points + j] = edit.ends_closed[j];
+  const SlidingUnknowns index(active_set);
+  State out{.x = Vector::Zero(index.size()), .lambda = at.now.lambda, .active_set = active_set};
   out.x.head(index.nodes) = at.mesh.transferred(at.now, on->mesh(), edit.s);
-  for (std::size_t j = 0; j < piece.size(); ++j)
+  for (std::size_t j = 0; j < active_set.size(); ++j)
     if (const auto p = index.force(j)) out.x[*p] = j < points ? edit.forces[j] : edit.end_forces[j - points];
   out.x.tail(edit.s.size()) = edit.s;
   return out;
@@ -146,13 +146,13 @@ std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting&
   return std::make_shared<SlidingContactLayout>(body, body.mesh(elements), std::move(points), origin, std::move(lying));
 }
 
-Piece with_layout(const Piece& piece, std::shared_ptr<const SlidingContactLayout> on) {
-  Piece out(piece.contacts(), 0, std::move(on));
-  for (std::size_t j = 0; j < piece.contacts(); ++j) out[j] = piece[j];
-  return out.with_kinks_of(piece);
+ActiveSet with_layout(const ActiveSet& active_set, std::shared_ptr<const SlidingContactLayout> on) {
+  ActiveSet out(active_set.contacts(), 0, std::move(on));
+  for (std::size_t j = 0; j < active_set.contacts(); ++j) out[j] = active_set[j];
+  return out.with_kinks_of(active_set);
 }
 
-Piece canonical_piece(const SlidingSetting& setting, const SlidingState& at) {
+ActiveSet canonical_active_set(const SlidingSetting& setting, const SlidingState& at) {
   constexpr double bent = 1e-6;  // curvature of a part that is not flat, times the length scale
   std::vector<Point> points = at.layout.points();
   bool changed = false;
@@ -162,8 +162,8 @@ Piece canonical_piece(const SlidingSetting& setting, const SlidingState& at) {
     points[k].behind = Span::free;
     changed = true;
   }
-  if (!changed) return at.state.piece;
-  return with_layout(at.state.piece,
+  if (!changed) return at.state.active_set;
+  return with_layout(at.state.active_set,
                      std::make_shared<SlidingContactLayout>(setting.body, at.layout.shared_mesh(), std::move(points),
                                                             at.now.s, at.layout.lying()));
 }

@@ -51,10 +51,10 @@ std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting&
                                                            std::vector<SlidingContactLayout::Point> points,
                                                            const Vector& origin, SlidingContactLayout::Lying lying);
 
-/// The piece with another layout, whose contacts have the same status.
-Piece with_layout(const Piece& piece, std::shared_ptr<const SlidingContactLayout> on);
+/// The active set with another layout, whose contacts have the same status.
+ActiveSet with_layout(const ActiveSet& active_set, std::shared_ptr<const SlidingContactLayout> on);
 
-/// The piece in which flat parts that the state bends are free: see System::canonical_piece.
-Piece canonical_piece(const SlidingSetting& setting, const SlidingState& at);
+/// The active set in which flat parts that the state bends are free: see System::canonical_active_set.
+ActiveSet canonical_active_set(const SlidingSetting& setting, const SlidingState& at);
 
 }  // namespace arcwall::sliding

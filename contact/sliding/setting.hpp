@@ -54,7 +54,7 @@ struct Pinch {
 };
 
 /// A body among obstacles: all that contact which slides depends on and that stays the same along a path. The contacts
-/// of a piece are the points that its layout tracks, then the free ends.
+/// of an active set are the points that its layout tracks, then the free ends.
 struct SlidingSetting {
   const SlidingBody& body;  ///< must outlive this
   std::vector<SlidingObstacle> obstacles{};

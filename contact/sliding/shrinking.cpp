@@ -57,13 +57,14 @@ std::size_t nearest(const SlidingContactLayout& on, const Vector& s, double plac
   return nearest;
 }
 
-// Up to the bound of the piece ahead from which the span at the first place would have grown: the nearest of its kind.
+// Up to the bound of the active set ahead from which the span at the first place would have grown: the nearest of its
+// kind.
 template <class Bound>
 Transition back_to(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit,
                    const std::vector<double>& places, Transition::Change change) {
   const auto on = layout_of(edit);
   State guess = mapped_onto(setting, at, edit, on);
-  const auto contacts = static_cast<Index>(guess.piece.size());
+  const auto contacts = static_cast<Index>(guess.active_set.size());
   const std::size_t first = nearest<Bound>(*on, edit.s, places.front());
   Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, first), change, std::move(guess));
   for (const double place : places) {
@@ -170,7 +171,7 @@ std::optional<std::size_t> half_pressed_stretch(const SlidingSetting& setting, c
 }
 
 // A pressed part and a point contact beside it have joined before the pressure between them shows it, as where the mesh
-// does not resolve the wall's curvature: the piece ahead holds already. It is entered at the same λ.
+// does not resolve the wall's curvature: the active set ahead holds already. It is entered at the same λ.
 Transition joined_here(const SlidingSetting& setting, const SlidingState& at, std::size_t gap) {
   Transition transition = joined(setting, at, {gap});
   transition.quantity.reset();

@@ -13,12 +13,12 @@ class SpanLength final : public Observable {
   explicit SpanLength(std::size_t point) : point_(static_cast<Index>(point)) {}
 
   double value(const State& state) const override {
-    const SlidingUnknowns index(state.piece);
+    const SlidingUnknowns index(state.active_set);
     return state.x[index.coordinate(point_ + 1)] - state.x[index.coordinate(point_)];
   }
 
   Row gradient(const State& state) const override {
-    const SlidingUnknowns index(state.piece);
+    const SlidingUnknowns index(state.active_set);
     Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
     row.dx[index.coordinate(point_ + 1)] = 1.0;
     row.dx[index.coordinate(point_)] = -1.0;
@@ -36,12 +36,12 @@ class TailLength final : public Observable {
   TailLength(std::size_t point, double end) : point_(static_cast<Index>(point)), end_(end) {}
 
   double value(const State& state) const override {
-    return std::abs(end_ - state.x[SlidingUnknowns(state.piece).coordinate(point_)]);
+    return std::abs(end_ - state.x[SlidingUnknowns(state.active_set).coordinate(point_)]);
   }
 
   Row gradient(const State& state) const override {
     Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-    row.dx[SlidingUnknowns(state.piece).coordinate(point_)] = end_ > 0.0 ? -1.0 : 1.0;
+    row.dx[SlidingUnknowns(state.active_set).coordinate(point_)] = end_ > 0.0 ? -1.0 : 1.0;
     return row;
   }
 

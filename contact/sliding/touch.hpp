@@ -14,7 +14,7 @@ struct Touch {
   AxisPlace axis(const SlidingState& at) const { return at.mesh.node(strand, position, at.now); }
 };
 
-/// The node of contact j of a piece: a tracked point's or a free end's.
+/// The node of contact j of an active set: a tracked point's or a free end's.
 Touch touch_of_contact(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact);
 Touch touch_of_end(const SlidingSetting& setting, const SlidingContactLayout& layout, const FreeEnd& end);
 

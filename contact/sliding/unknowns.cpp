@@ -4,10 +4,10 @@
 
 namespace arcwall {
 
-SlidingUnknowns::SlidingUnknowns(const Piece& piece) : piece_(&piece) {
-  const SlidingContactLayout& layout = sliding_layout(piece);
+SlidingUnknowns::SlidingUnknowns(const ActiveSet& active_set) : active_set_(&active_set) {
+  const SlidingContactLayout& layout = sliding_layout(active_set);
   nodes = layout.mesh().unknowns();
-  closed = piece.closed_count();
+  closed = active_set.closed_count();
   pressed = static_cast<Index>(layout.pressed_nodes().size());
   neutral = static_cast<Index>(layout.neutral_spans().size());
   pinched = static_cast<Index>(layout.pinched_points().size());
@@ -16,9 +16,9 @@ SlidingUnknowns::SlidingUnknowns(const Piece& piece) : piece_(&piece) {
 }
 
 std::optional<Index> SlidingUnknowns::force(std::size_t contact) const {
-  if (!(*piece_)[contact]) return std::nullopt;
-  const auto before = piece_->begin() + static_cast<std::ptrdiff_t>(contact);
-  return nodes + std::count(piece_->begin(), before, std::uint8_t{1});
+  if (!(*active_set_)[contact]) return std::nullopt;
+  const auto before = active_set_->begin() + static_cast<std::ptrdiff_t>(contact);
+  return nodes + std::count(active_set_->begin(), before, std::uint8_t{1});
 }
 
 }  // namespace arcwall

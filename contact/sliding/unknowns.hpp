@@ -9,10 +9,10 @@
 
 namespace arcwall {
 
-/// Where the unknowns of a piece of sliding contact stand in State::x, one block behind the other:
+/// Where the unknowns of an active set of sliding contact stand in State::x, one block behind the other:
 ///
 ///     x   `nodes`    positions and rotations of the mesh's nodes              unknowns of the mesh
-///     p   `closed`   forces of the closed contacts, in the piece's order      multipliers, with −g = 0
+///     p   `closed`   forces of the closed contacts, in the active set's order      multipliers, with −g = 0
 ///     p   `pressed`  forces of the pressed nodes, in the layout's order       multipliers, with −g = 0
 ///     p   `neutral`  forces that hold the middles of neutral spans            multipliers, with −c = 0
 ///     τ   `pinched`  forces along the axis at pinched points                  multipliers, with −c = 0
@@ -23,8 +23,8 @@ namespace arcwall {
 /// All but s are unknowns of K. Equations stand in the same order; that of s_k says that the body may slide at point k.
 class SlidingUnknowns {
  public:
-  /// `piece` must outlive this.
-  explicit SlidingUnknowns(const Piece& piece);
+  /// `active_set` must outlive this.
+  explicit SlidingUnknowns(const ActiveSet& active_set);
 
   Index nodes = 0;    ///< entries of x
   Index closed = 0;   ///< forces of closed contacts
@@ -49,7 +49,7 @@ class SlidingUnknowns {
   Index coordinate(Index point) const { return of_K() + point; }
 
  private:
-  const Piece* piece_;
+  const ActiveSet* active_set_;
 };
 
 /// Numbers at the places of segments that several bounds have in common. Each is computed when it is first asked for.
@@ -69,7 +69,11 @@ class SharedByBounds {
 /// A state of sliding contact with its unknowns by name. A view: `state` must outlive it.
 struct SlidingState {
   explicit SlidingState(const State& of)
-      : state(of), layout(sliding_layout(of.piece)), mesh(layout.mesh()), index(of.piece), now(mesh_state_of(of)) {}
+      : state(of),
+        layout(sliding_layout(of.active_set)),
+        mesh(layout.mesh()),
+        index(of.active_set),
+        now(mesh_state_of(of)) {}
   SlidingState(State&&) = delete;
 
   const State& state;
@@ -79,8 +83,8 @@ struct SlidingState {
   MeshState now;                     ///< x, s and λ
   mutable SharedByBounds pressures;  ///< at the places of pressed parts, see CurvePressure
 
-  std::size_t contacts() const { return state.piece.contacts(); }
-  bool is_closed(std::size_t contact) const { return state.piece[contact] != 0; }
+  std::size_t contacts() const { return state.active_set.contacts(); }
+  bool is_closed(std::size_t contact) const { return state.active_set[contact] != 0; }
   double s(Index point) const { return now.s[point]; }
 
   /// Of a contact, 0 where it is open [force].

@@ -26,8 +26,8 @@ struct BoundPlace {
   std::optional<std::size_t> obstacle{};  ///< empty where none is touched
 };
 
-/// A condition without which a layout is not valid: a guard of the pieces that have the layout, with what lies behind
-/// it.
+/// A condition without which a layout is not valid: a guard of the active sets that have the layout, with what lies
+/// behind it.
 ///
 /// Each kind of bound is one class, with its value, its gradient and its transitions side by side. An object of it
 /// belongs to one tracked point, segment, pressed node or free end of a layout, and serves all states on that layout.
@@ -35,7 +35,7 @@ class ValidityBound {
  public:
   virtual ~ValidityBound() = default;
 
-  /// Positive on the piece, of order 1.
+  /// Positive on the active set, of order 1.
   virtual double value(const SlidingSetting& setting, const SlidingState& at) const = 0;
 
   /// Derivative of the value by all unknowns.

@@ -27,31 +27,31 @@ double weighted_square(const Eigen::Ref<const Vector>& weights, const Eigen::Ref
 }
 
 // The contacts to be changed: all that are wrong, later the worst alone. Empty if none is.
-std::optional<Piece> changed_piece(const UnilateralSystem& system, const State& state, bool all) {
+std::optional<ActiveSet> changed_active_set(const UnilateralSystem& system, const State& state, bool all) {
   const Vector guards = system.guards(state);
-  Piece piece = state.piece;
+  ActiveSet active_set = state.active_set;
   std::optional<Index> worst;
   const auto toggle = [&](Index j) {
-    std::uint8_t& closed = piece[static_cast<std::size_t>(j)];
+    std::uint8_t& closed = active_set[static_cast<std::size_t>(j)];
     closed = closed == 0 ? 1 : 0;
   };
-  for (Index j = 0; j < static_cast<Index>(piece.size()); ++j) {
-    if (!(guards[j] < -guard_violated) || system.is_two_sided(state.piece, j)) continue;
+  for (Index j = 0; j < static_cast<Index>(active_set.size()); ++j) {
+    if (!(guards[j] < -guard_violated) || system.is_two_sided(state.active_set, j)) continue;
     if (!worst || guards[j] < guards[*worst]) worst = j;
     if (all) toggle(j);
   }
   if (!worst) return std::nullopt;
   if (!all) toggle(*worst);
-  return piece;
+  return active_set;
 }
 
 // What touches is closed to begin with: the image of an equilibrium is one with its contacts alone.
 State with_touching(const UnilateralSystem& system, const State& state) {
   const Vector guards = system.guards(state);
-  Piece piece = state.piece;
-  for (std::size_t j = 0; j < piece.size(); ++j)
-    if (std::abs(guards[static_cast<Index>(j)]) <= touching) piece[j] = 1;
-  return system.with_piece(state, piece);
+  ActiveSet active_set = state.active_set;
+  for (std::size_t j = 0; j < active_set.size(); ++j)
+    if (std::abs(guards[static_cast<Index>(j)]) <= touching) active_set[j] = 1;
+  return system.with_active_set(state, active_set);
 }
 
 }  // namespace
@@ -62,14 +62,14 @@ DeflatedResult DeflatedNewton::from(State guess) {
   DeflatedResult result{.state = follow ? with_touching(system_, guess) : std::move(guess)};
   State& state = result.state;
   for (; result.iterations < newton_iterations; ++result.iterations) {
-    std::optional<Piece> piece;
-    if (follow) piece = changed_piece(system_, state, result.iterations < changes_together);
-    if (piece) state = system_.with_piece(state, *piece);
+    std::optional<ActiveSet> active_set;
+    if (follow) active_set = changed_active_set(system_, state, result.iterations < changes_together);
+    if (active_set) state = system_.with_active_set(state, *active_set);
     Vector step;
     if (!newton_step(state, step)) return result;
-    const Vector weights = system_.weights(state.piece);
+    const Vector weights = system_.weights(state.active_set);
     const double length = std::sqrt(weighted_square(weights, step));
-    if (!piece && length <= last_newton_step) {
+    if (!active_set && length <= last_newton_step) {
       state.x += step;
       result.end = is_known(state) ? DeflatedEnd::known : DeflatedEnd::arrived;
       return result;
@@ -77,7 +77,7 @@ DeflatedResult DeflatedNewton::from(State guess) {
     const double by = factor(state, step);
     state.x +=
         (std::abs(by) * length > longest_newton_step ? std::copysign(longest_newton_step / length, by) : by) * step;
-    const Index n = weights.size() - system_.multiplier_count(state.piece);
+    const Index n = weights.size() - system_.multiplier_count(state.active_set);
     if (!all_finite(state.x) ||
         weighted_square(weights.head(n), state.x.head(n) - start.x.head(n)) > far_from_guess * far_from_guess)
       return result;
@@ -91,10 +91,11 @@ std::optional<State> DeflatedNewton::beside(const State& guess) {
   for (int i = 0; i < iterations; ++i) {
     Vector step;
     if (!newton_step(state, step)) return std::nullopt;
-    const double length = std::sqrt(weighted_square(system_.weights(state.piece), step));
+    const double length = std::sqrt(weighted_square(system_.weights(state.active_set), step));
     if (length > is_known_one) return std::nullopt;
     state.x += step;
-    if (length <= last_newton_step) return changed_piece(system_, state, true) ? std::nullopt : std::optional(state);
+    if (length <= last_newton_step)
+      return changed_active_set(system_, state, true) ? std::nullopt : std::optional(state);
   }
   return std::nullopt;
 }
@@ -111,8 +112,8 @@ bool DeflatedNewton::newton_step(const State& state, Vector& step) {
 // 1/(1 − s), s = ∇(log m) · step
 double DeflatedNewton::factor(const State& state, const Vector& step) const {
   constexpr double least = 1e-3;  // of |1 − s|
-  const Vector weights = system_.weights(state.piece);
-  const std::vector<Index> sets = system_.turning_sets(state.piece);
+  const Vector weights = system_.weights(state.active_set);
+  const std::vector<Index> sets = system_.turning_sets(state.active_set);
   double s = 0.0;
   for (const Vector& known : known_) {
     const Index n = known.size();
@@ -127,8 +128,8 @@ double DeflatedNewton::factor(const State& state, const Vector& step) const {
 }
 
 bool DeflatedNewton::is_known(const State& state) const {
-  const Vector weights = system_.weights(state.piece);
-  const std::vector<Index> sets = system_.turning_sets(state.piece);
+  const Vector weights = system_.weights(state.active_set);
+  const std::vector<Index> sets = system_.turning_sets(state.active_set);
   return std::any_of(known_.begin(), known_.end(), [&](const Vector& known) {
     const Index n = known.size();
     const Vector off = state.x.head(n) - turned_towards(state.x, known, sets);

@@ -35,17 +35,17 @@ class HeldMinimum {
     State state = from;
     for (int change = 0; change < most_changes; ++change) {
       if (!minimise(from, mu, state)) return std::nullopt;
-      const auto piece = next_piece(state, change);
-      if (!piece) return state;
-      state = system_.with_piece(state, *piece);
+      const auto active_set = next_active_set(state, change);
+      if (!active_set) return state;
+      state = system_.with_active_set(state, *active_set);
     }
     return std::nullopt;
   }
 
  private:
   bool minimise(const State& from, double mu, State& state) {
-    const Vector weights = system_.weights(state.piece);
-    const Index multipliers = system_.multiplier_count(state.piece), n = weights.size() - multipliers;
+    const Vector weights = system_.weights(state.active_set);
+    const Index multipliers = system_.multiplier_count(state.active_set), n = weights.size() - multipliers;
     const double arrived = mu > 0.0 ? newton_near : newton_arrived;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       if (left_-- <= 0) return false;
@@ -69,22 +69,22 @@ class HeldMinimum {
   }
 
   // The contacts to be changed: all that are wrong, later the worst alone. Empty if none is.
-  std::optional<Piece> next_piece(const State& state, int change) const {
+  std::optional<ActiveSet> next_active_set(const State& state, int change) const {
     const Vector guards = system_.guards(state);
-    Piece piece = state.piece;
+    ActiveSet active_set = state.active_set;
     std::optional<Index> worst;
-    for (Index j = 0; j < static_cast<Index>(piece.size()); ++j) {
-      if (!(guards[j] < -contact_violated) || system_.is_two_sided(state.piece, j)) continue;
+    for (Index j = 0; j < static_cast<Index>(active_set.size()); ++j) {
+      if (!(guards[j] < -contact_violated) || system_.is_two_sided(state.active_set, j)) continue;
       if (!worst || guards[j] < guards[*worst]) worst = j;
-      if (change < changes_at_once) toggle(piece, j);
+      if (change < changes_at_once) toggle(active_set, j);
     }
     if (!worst) return std::nullopt;
-    if (change >= changes_at_once) toggle(piece, *worst);
-    return piece;
+    if (change >= changes_at_once) toggle(active_set, *worst);
+    return active_set;
   }
 
-  static void toggle(Piece& piece, Index j) {
-    std::uint8_t& closed = piece[static_cast<std::size_t>(j)];
+  static void toggle(ActiveSet& active_set, Index j) {
+    std::uint8_t& closed = active_set[static_cast<std::size_t>(j)];
     closed = closed == 0 ? 1 : 0;
   }
 
@@ -95,17 +95,17 @@ class HeldMinimum {
 };
 
 double distance(const UnilateralSystem& system, const State& a, const State& b) {
-  const Vector weights = system.weights(a.piece);
-  const Index n = weights.size() - system.multiplier_count(a.piece);
+  const Vector weights = system.weights(a.active_set);
+  const Index n = weights.size() - system.multiplier_count(a.active_set);
   const auto dx = (a.x.head(n) - b.x.head(n)).array();
   return std::sqrt((weights.head(n).array() * dx.square()).sum());
 }
 
-// The greatest stiffness of a freedom by itself.
+// The greatest stiffness of a degree of freedom by itself.
 double greatest_stiffness(const UnilateralSystem& system, const State& state) {
   Linearization at;
   system.linearize(state, at);
-  const Vector weights = system.weights(state.piece), diagonal = at.K.diagonal();
+  const Vector weights = system.weights(state.active_set), diagonal = at.K.diagonal();
   double greatest = 0.0;
   for (Index i = 0; i < weights.size(); ++i)
     if (weights[i] > 0.0) greatest = std::max(greatest, std::abs(diagonal[i]) / weights[i]);

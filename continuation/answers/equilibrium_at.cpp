@@ -10,7 +10,7 @@ std::optional<CountedState> equilibrium_at_lambda(const System& system, const St
   constexpr double distance = 0.1;  // of a generous guess [path metric]
   constexpr double slack = 1e-8;    // of guards
   TraceTools tools(system, options);
-  const Metric metric = tools.metric_on(guess.piece, 1.0);  // λ stays
+  const Metric metric = tools.metric_on(guess.active_set, 1.0);  // λ stays
   const ParameterValue lambda;
   const Direction along{.dx = Vector::Zero(guess.x.size()), .dlambda = 1.0};
   const CorrectorResult found =

@@ -14,8 +14,9 @@ struct CountedState {
   StabilityCount count{};
 };
 
-/// The equilibrium at λ of a guess that is near it, on its piece; empty where Newton's method finds none, or one that
-/// enters an obstacle or at which a contact would pull. Of `options` those of Newton's method and of contact count.
+/// The equilibrium at λ of a guess that is near it, on its active set; empty where Newton's method finds none, or one
+/// that enters an obstacle or at which a contact would pull. Of `options` those of Newton's method and of contact
+/// count.
 std::optional<CountedState> equilibrium_at_lambda(const System& system, const State& guess,
                                                   const TraceOptions& options);
 

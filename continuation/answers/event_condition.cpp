@@ -68,7 +68,7 @@ class BorderedMatrix {
       : equations_(equations),
         f_(std::move(f)),
         r_(std::move(r)),
-        multipliers_(at.system->multiplier_count(at.state.piece)),
+        multipliers_(at.system->multiplier_count(at.state.active_set)),
         solver_(make),
         transposed_solver_(make) {
     solver_.factorize(equations_, multipliers_);

@@ -66,10 +66,10 @@ bool is_at_change_of_contact(const Arc& arc) {
 
 // Whether λ turns because a law of straight pieces comes to a kink.
 bool turns_at_kink(const UnilateralSystem& system, const Event& event) {
-  const Piece& piece = event.state.piece;
-  if (event.kind != EventKind::contact_limit_point || piece.kinks() == 0) return false;
+  const ActiveSet& active_set = event.state.active_set;
+  if (event.kind != EventKind::contact_limit_point || active_set.kinks() == 0) return false;
   const Vector guards = system.guards(event.state);
-  const auto kinks = guards.segment(static_cast<Index>(piece.contacts()), static_cast<Index>(piece.kinks()));
+  const auto kinks = guards.segment(static_cast<Index>(active_set.contacts()), static_cast<Index>(active_set.kinks()));
   return kinks.cwiseAbs().minCoeff() <= vanishing;
 }
 
@@ -168,7 +168,7 @@ EventDerivatives::Settled EventDerivatives::with_best_step(double longest, int h
 EventDerivatives::EventDerivatives(const System& system, const Arc& arc, const Event& event, const Observable* turning,
                                    double lambda_scale, const MakeFactorization& factorization)
     : system_(system),
-      metric_(system.weights(event.state.piece), lambda_scale),
+      metric_(system.weights(event.state.active_set), lambda_scale),
       lambda_scale_(lambda_scale),
       factorization_(factorization),
       corrector_(system, {}, lambda_scale, factorization),
@@ -346,7 +346,7 @@ EventDerivative EventDerivatives::by_guards(const Direction& response, const std
 double EventDerivatives::turning_beside(Corrector& corrector, const Observable& turning, const State& guess,
                                         double along) const {
   State origin = state_;
-  origin.piece = guess.piece;
+  origin.active_set = guess.active_set;
   const PlaneConstraint plane(metric_, origin, tangent_, along);
   const CorrectorResult arrived =
       corrector.correct(guess, plane, metric_, tangent_, std::abs(along) + longest_turn, Wanted::tangent);

@@ -54,17 +54,17 @@ std::shared_ptr<const Layout> EventSystem::with_meaning(Meaning meaning) {
 EventSystem::EventSystem(const SystemFamily& family, FollowedEvent event, double lambda_scale, MakeFactorization make)
     : family_(family), event_(std::move(event)), lambda_scale_(lambda_scale), make_(std::move(make)) {}
 
-const EventSystem::EventLayout& EventSystem::layout_of(const Piece& piece) {
-  return static_cast<const EventLayout&>(*piece.layout());
+const EventSystem::EventLayout& EventSystem::layout_of(const ActiveSet& active_set) {
+  return static_cast<const EventLayout&>(*active_set.layout());
 }
 
 Metric EventSystem::metric_of(const SystemFamily::Member& member) const {
-  return {member.system->weights(member.state.piece), lambda_scale_};
+  return {member.system->weights(member.state.active_set), lambda_scale_};
 }
 
 State EventSystem::in_common_terms(const State& state) const {
-  const EventLayout& layout = layout_of(state.piece);
-  return {.x = state.x.head(layout.base_size), .lambda = state.x[layout.base_size], .piece = layout.piece};
+  const EventLayout& layout = layout_of(state.active_set);
+  return {.x = state.x.head(layout.base_size), .lambda = state.x[layout.base_size], .active_set = layout.active_set};
 }
 
 std::optional<SystemFamily::Member> EventSystem::at(const State& state) const {
@@ -72,25 +72,26 @@ std::optional<SystemFamily::Member> EventSystem::at(const State& state) const {
 }
 
 std::optional<Direction> EventSystem::along_path(const State& state, const SystemFamily::Member& member) const {
-  return path_direction(event_.criterion, member, layout_of(state.piece).border, metric_of(member), make_);
+  return path_direction(event_.criterion, member, layout_of(state.active_set).border, metric_of(member), make_);
 }
 
-double EventSystem::lambda_of(const State& state) { return state.x[layout_of(state.piece).base_size]; }
+double EventSystem::lambda_of(const State& state) { return state.x[layout_of(state.active_set).base_size]; }
 
 double EventSystem::lambda_rate(const State& state, const Direction& direction) {
-  return direction.dx[layout_of(state.piece).base_size];
+  return direction.dx[layout_of(state.active_set).base_size];
 }
 
 State EventSystem::extended(const SystemFamily::Member& at, const State& event, double kappa, EventBorder border,
                             const State* like) const {
   const System& system = *at.system;
-  const Piece& piece = at.state.piece;
-  auto layout = with_meaning({.piece = event.piece,
-                              .weights = system.weights(piece),
-                              .multipliers = system.multiplier_count(piece),
-                              .guards = system.guard_count(piece),
+  const ActiveSet& active_set = at.state.active_set;
+  auto layout = with_meaning({.active_set = event.active_set,
+                              .weights = system.weights(active_set),
+                              .multipliers = system.multiplier_count(active_set),
+                              .guards = system.guard_count(active_set),
                               .border = std::move(border)});
-  State state{.x = Vector::Zero(event.x.size() + extra()), .lambda = kappa, .piece = Piece(0, 0, std::move(layout))};
+  State state{
+      .x = Vector::Zero(event.x.size() + extra()), .lambda = kappa, .active_set = ActiveSet(0, 0, std::move(layout))};
   state.x.head(event.x.size()) = event.x;
   state.x[event.x.size()] = event.lambda;
   if (like != nullptr && extra() == 2) state.x[event.x.size() + 1] = like->x[like->x.size() - 1];
@@ -105,22 +106,22 @@ std::optional<State> EventSystem::of_event(const State& event, double kappa) con
   return extended(*member, event, kappa, std::move(*border));
 }
 
-Index EventSystem::size(const Piece& piece) const { return layout_of(piece).base_size + extra(); }
+Index EventSystem::size(const ActiveSet& active_set) const { return layout_of(active_set).base_size + extra(); }
 
 double EventSystem::energy(const State& state) const {
   const auto member = at(state);
   return member ? member->system->energy(member->state) : std::numeric_limits<double>::quiet_NaN();
 }
 
-Vector EventSystem::weights(const Piece& piece) const {
-  const EventLayout& layout = layout_of(piece);
+Vector EventSystem::weights(const ActiveSet& active_set) const {
+  const EventLayout& layout = layout_of(active_set);
   Vector weights = Vector::Ones(layout.base_size + extra());
   weights.head(layout.base_size) = layout.weights;
   weights[layout.base_size] = 1.0 / (lambda_scale_ * lambda_scale_);
   return weights;
 }
 
-Index EventSystem::multiplier_count(const Piece& piece) const { return layout_of(piece).multipliers; }
+Index EventSystem::multiplier_count(const ActiveSet& active_set) const { return layout_of(active_set).multipliers; }
 
 // --- equations ------------------------------------------------------------------------------------------------------
 
@@ -160,7 +161,7 @@ std::optional<std::vector<EventEquation>> EventSystem::equations(const SystemFam
 }
 
 void EventSystem::residual(const State& state, Eigen::Ref<Vector> F) const {
-  const EventLayout& layout = layout_of(state.piece);
+  const EventLayout& layout = layout_of(state.active_set);
   F.setConstant(std::numeric_limits<double>::quiet_NaN());
   const auto member = at(state);
   if (!member) return;
@@ -216,7 +217,7 @@ void extend(const Linearization& here, const std::vector<EventEquation>& equatio
 }  // namespace
 
 void EventSystem::linearize(const State& state, Linearization& out) const {
-  const EventLayout& layout = layout_of(state.piece);
+  const EventLayout& layout = layout_of(state.active_set);
   const Index n = layout.base_size, e = extra();
   out.F = Vector::Constant(n + e, std::numeric_limits<double>::quiet_NaN());
   const State event = in_common_terms(state);
@@ -238,7 +239,7 @@ void EventSystem::linearize(const State& state, Linearization& out) const {
     out.F_lambda.head(n) += sample.weight * (sample.F.size() == 0 ? F : sample.F);
   }
   extend(here, *found, layout.border.column, out);
-  out.pattern_of = state.piece;
+  out.pattern_of = state.active_set;
 }
 
 // --- guards ---------------------------------------------------------------------------------------------------------
@@ -247,18 +248,18 @@ bool EventSystem::vanishes(Index guard) const {
   return std::find(event_.guards.begin(), event_.guards.end(), guard) != event_.guards.end();
 }
 
-Index EventSystem::guard_count(const Piece& piece) const { return layout_of(piece).guards; }
+Index EventSystem::guard_count(const ActiveSet& active_set) const { return layout_of(active_set).guards; }
 
 Vector EventSystem::guards(const State& state) const {
   const auto member = at(state);
-  if (!member) return Vector::Ones(guard_count(state.piece));
+  if (!member) return Vector::Ones(guard_count(state.active_set));
   Vector guards = member->system->guards(member->state);
   for (const Index j : event_.guards) guards[j] = 1.0;
   return guards;
 }
 
 Row EventSystem::guard_gradient(const State& state, Index j) const {
-  const Index n = layout_of(state.piece).base_size;
+  const Index n = layout_of(state.active_set).base_size;
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   const auto member = at(state);
   if (vanishes(j) || !member) return row;
@@ -271,11 +272,11 @@ Row EventSystem::guard_gradient(const State& state, Index j) const {
 }
 
 GuardsAlong EventSystem::guards_along(const State& state, const Direction& direction) const {
-  const Index count = guard_count(state.piece);
+  const Index count = guard_count(state.active_set);
   const auto member = at(state);
   if (!member || count == 0) return {.values = Vector::Ones(count), .rates = Vector::Zero(count)};
   GuardsAlong along =
-      member->system->guards_along(member->state, base_direction(direction, layout_of(state.piece).base_size));
+      member->system->guards_along(member->state, base_direction(direction, layout_of(state.active_set).base_size));
   if (direction.dlambda != 0.0)
     for (const WeightedMember& sample : samples(in_common_terms(state), state.lambda))
       along.rates += direction.dlambda * sample.weight * sample.member.system->guards(sample.member.state);
@@ -306,7 +307,7 @@ std::optional<Transition> EventSystem::remeshed(const State& from, const Transit
   const auto event = family_.in_common_terms(transition.guess.get());
   const auto ahead = event ? family_.at(from.lambda, *event) : std::nullopt;
   if (!ahead) return std::nullopt;
-  const Index count = ahead->system->guard_count(ahead->state.piece);
+  const Index count = ahead->system->guard_count(ahead->state.active_set);
   for (const Index j : event_.guards)
     if (j >= count || std::abs(ahead->system->guard(ahead->state, j)) > still_zero) return std::nullopt;
   auto border = event_border(event_.criterion, *ahead, metric_of(*ahead), make_);
@@ -323,25 +324,25 @@ std::vector<Transition> EventSystem::transitions(const State& state, const Direc
                                                  double tolerance) const {
   const auto member = at(state);
   if (!member) return {};
-  const auto contacts = static_cast<Index>(member->state.piece.size());
+  const auto contacts = static_cast<Index>(member->state.active_set.size());
   if (bound >= contacts) {
     const auto ahead = member->system->transitions(
-        member->state, base_direction(forward, layout_of(state.piece).base_size), bound, tolerance);
+        member->state, base_direction(forward, layout_of(state.active_set).base_size), bound, tolerance);
     if (!ahead.empty())
       if (auto same_event = remeshed(state, ahead.front(), forward)) return {std::move(*same_event)};
   }
   Transition end{.change = Transition::Change::unsupported};
-  end.detail = bound < contacts
-                   ? (member->state.piece[static_cast<std::size_t>(bound)] != 0 ? "a contact of the event opens there"
-                                                                                : "another contact closes there")
-                   : "a contact of the event changes its kind there";
+  end.detail = bound < contacts ? (member->state.active_set[static_cast<std::size_t>(bound)] != 0
+                                       ? "a contact of the event opens there"
+                                       : "another contact closes there")
+                                : "a contact of the event changes its kind there";
   return {std::move(end)};
 }
 
 bool EventSystem::admissible(const State& state, double margin) const {
   const auto member = at(state);
   if (!member || !member->system->admissible(member->state, margin)) return false;
-  return border_fits(*member, layout_of(state.piece).border, metric_of(*member), make_) >= least_fit;
+  return border_fits(*member, layout_of(state.active_set).border, metric_of(*member), make_) >= least_fit;
 }
 
 std::string EventSystem::most_inadmissible(const State& state, double margin) const {
@@ -351,7 +352,7 @@ std::string EventSystem::most_inadmissible(const State& state, double margin) co
 
 std::optional<Transition> EventSystem::with_inserted_contact(const State& from, const Direction& forward,
                                                              const State& to, double margin) const {
-  const Index n = layout_of(from.piece).base_size;
+  const Index n = layout_of(from.active_set).base_size;
   const State start = in_common_terms(from);
   const auto end = at(to), begin = family_.at(to.lambda, start);
   if (!end || !begin) return std::nullopt;
@@ -377,7 +378,7 @@ std::optional<Transition> EventSystem::with_mesh_for_landing(const State& from, 
   const auto begin = family_.at(to.lambda, in_common_terms(from)), end = at(to);
   if (!begin || !end) return std::nullopt;
   const auto suited = end->system->with_mesh_for_landing(
-      begin->state, base_direction(forward, layout_of(from.piece).base_size), end->state, guard);
+      begin->state, base_direction(forward, layout_of(from.active_set).base_size), end->state, guard);
   return suited ? remeshed(from, *suited, forward) : std::nullopt;
 }
 

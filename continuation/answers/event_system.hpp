@@ -23,8 +23,8 @@ struct FollowedEvent {
 ///
 ///     F(x, λ; κ) + μ f = 0,    the event's one or two equations = 0.
 ///
-/// The guards of the event's piece are validity bounds here: behind one of them the event is another one, unless the
-/// mesh alone changes.
+/// The guards of the event's active set are validity bounds here: behind one of them the event is another one, unless
+/// the mesh alone changes.
 class EventSystem final : public System {
  public:
   /// `family` must outlive this. `lambda_scale`: λ₀ of the metric of x and λ.
@@ -52,8 +52,8 @@ class EventSystem final : public System {
 
   /// What the unknowns of a state here mean, as plain values: for those who keep states.
   struct Meaning {
-    Piece piece{};     ///< of the event, in the family's terms
-    Vector weights{};  ///< of the unknowns of the event
+    ActiveSet active_set{};  ///< of the event, in the family's terms
+    Vector weights{};        ///< of the unknowns of the event
     Index multipliers = 0, guards = 0;
     EventBorder border{};
   };
@@ -67,15 +67,15 @@ class EventSystem final : public System {
   /// The metric of x and λ alone.
   Metric metric_of(const SystemFamily::Member& member) const;
 
-  Index size(const Piece& piece) const override;
+  Index size(const ActiveSet& active_set) const override;
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
-  Vector weights(const Piece& piece) const override;
-  Index multiplier_count(const Piece& piece) const override;
+  Vector weights(const ActiveSet& active_set) const override;
+  Index multiplier_count(const ActiveSet& active_set) const override;
   bool has_stability() const override { return false; }
 
-  Index guard_count(const Piece& piece) const override;
+  Index guard_count(const ActiveSet& active_set) const override;
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
   GuardsAlong guards_along(const State& state, const Direction& direction) const override;
@@ -97,7 +97,7 @@ class EventSystem final : public System {
  private:
   class EventLayout;
 
-  static const EventLayout& layout_of(const Piece& piece);
+  static const EventLayout& layout_of(const ActiveSet& active_set);
   Index extra() const { return event_.criterion == Criterion::crossing ? 2 : 1; }
   // An event's state `event`, in the family's terms, as one here; `at`: the same in those of the system for κ. `like`:
   // a state whose μ it has.

@@ -15,14 +15,14 @@ constexpr double same_way = 1.0 - 1e-6;  // cosine above which two directions ar
 
 // A direction with all contacts open, of unit length: how the structure moves.
 Direction open_direction(const TraceTools& tools, const Metric& open_metric, const Direction& direction,
-                         const Piece& piece) {
-  return unit(open_metric,
-              {.dx = tools.system.transfer(direction.dx, piece, piece.all_open()), .dlambda = direction.dlambda});
+                         const ActiveSet& active_set) {
+  return unit(open_metric, {.dx = tools.system.transfer(direction.dx, active_set, active_set.all_open()),
+                            .dlambda = direction.dlambda});
 }
 
 // How good it is to go on along a direction; the least is best.
 struct Rank {
-  bool unstable, continues;  // a continuation of the old piece only where nothing else leaves
+  bool unstable, continues;  // a continuation of the old active set only where nothing else leaves
   bool turns;                // λ, which drives a structure that arrives stable
   Index count;
   double backward;
@@ -39,9 +39,9 @@ ChosenDirection best_of(TraceTools& tools, std::vector<OutgoingDirection> ways, 
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const std::optional<Index> count = count_along(tools, ways[i], at.state);
     const Index negative = count.value_or(std::numeric_limits<Index>::max());
-    const bool continues = ways[i].piece == at.state.piece;
+    const bool continues = ways[i].active_set == at.state.active_set;
     stable += negative == 0;
-    const Direction way = open_direction(tools, open_metric, ways[i].direction, ways[i].piece);
+    const Direction way = open_direction(tools, open_metric, ways[i].direction, ways[i].active_set);
     const Rank rank{.unstable = negative > 0,
                     .continues = negative > 0 && continues != tools.options.stay,
                     .turns = negative == 0 && arrives_stable && way.dlambda * incoming.dlambda < 0.0,
@@ -70,27 +70,28 @@ void remember(std::vector<VisitedCorner>& visited, CornerVisit visit) {
   for (Direction& way : visit.corner.ways) ways.push_back(std::move(way));
 }
 
-Piece holding_along(const TraceTools& tools, const OutgoingDirection& way, const State& corner) {
-  Piece piece = strictly_active(tools.system, corner, tools.options.guard_tolerance);
-  for (std::size_t j = 0; j < piece.size(); ++j) piece[j] = way.loading[j] || (piece[j] && way.piece[j]) ? 1 : 0;
-  return piece;
+ActiveSet holding_along(const TraceTools& tools, const OutgoingDirection& way, const State& corner) {
+  ActiveSet active_set = strictly_active(tools.system, corner, tools.options.guard_tolerance);
+  for (std::size_t j = 0; j < active_set.size(); ++j)
+    active_set[j] = way.loading[j] || (active_set[j] && way.active_set[j]) ? 1 : 0;
+  return active_set;
 }
 
 std::optional<Index> count_along(TraceTools& tools, const OutgoingDirection& way, const State& corner) {
-  return tools.counter.negative_on(tools.system.with_piece(corner, holding_along(tools, way, corner)));
+  return tools.counter.negative_on(tools.system.with_active_set(corner, holding_along(tools, way, corner)));
 }
 
 Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std::vector<OutgoingDirection> ways,
               const PathPoint& at, const StabilityCount& before, double lambda_scale) {
-  const Piece open = at.state.piece.all_open();
+  const ActiveSet open = at.state.active_set.all_open();
   const Metric metric = tools.metric_on(open, lambda_scale);
-  const State here = tools.system.with_piece(at.state, open);
-  const Direction incoming = open_direction(tools, metric, at.tangent, at.state.piece);
+  const State here = tools.system.with_active_set(at.state, open);
+  const Direction incoming = open_direction(tools, metric, at.tangent, at.state.active_set);
   const auto opened = [&](const OutgoingDirection& way) {
-    return open_direction(tools, metric, way.direction, way.piece);
+    return open_direction(tools, metric, way.direction, way.active_set);
   };
 
-  // The layout of a piece that has been left and come back to is another one with the same unknowns.
+  // The layout of an active set that has been left and come back to is another one with the same unknowns.
   const std::vector<Index> turning_sets = tools.system.turning_sets(open);
   const auto is_here = [&](const VisitedCorner& v) {
     return std::abs(v.corner.lambda - here.lambda) <= coincidence_tolerance * metric.lambda_scale() &&

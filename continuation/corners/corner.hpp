@@ -24,23 +24,24 @@ struct Corner {
 /// Why a path ends where none of the ways that it may take behind a corner has a point.
 inline constexpr std::string_view nothing_behind_change = "beyond a change of contact";
 
-/// A piece that was entered behind a transition that makes a span: its first point has one of some length.
-struct EnteredPiece {
-  PathPoint begin{};  ///< on the same piece with a small part of that length: where the step to the first point begins
-  std::optional<PathPoint> first{};  ///< empty: it only tells where the piece leads, and does not hold itself
+/// An active set that was entered behind a transition that makes a span: its first point has one of some length.
+struct EnteredActiveSet {
+  PathPoint
+      begin{};  ///< on the same active set with a small part of that length: where the step to the first point begins
+  std::optional<PathPoint> first{};  ///< empty: it only tells where the active set leads, and does not hold itself
   std::vector<ValuePoint> values{};  ///< between the corner and `begin`, in their order
 };
 
 /// Where a corner leads.
 struct CornerPassed {
-  PathPoint at{};  ///< the same place on the piece ahead; behind, if the piece begins with a span
-  std::optional<EnteredPiece> entered{};  ///< that begins with a span
-  std::vector<Event> events{};            ///< at `at`
-  std::optional<BranchEnd> end{};         ///< why nothing can be followed, where that is so
-  std::optional<CornerVisit> visit{};     ///< to be remembered
+  PathPoint at{};  ///< the same place on the active set ahead; behind, if the active set begins with a span
+  std::optional<EnteredActiveSet> entered{};  ///< that begins with a span
+  std::vector<Event> events{};                ///< at `at`
+  std::optional<BranchEnd> end{};             ///< why nothing can be followed, where that is so
+  std::optional<CornerVisit> visit{};         ///< to be remembered
   int without_progress = 0;
 
-  /// The nearest point known of the piece ahead.
+  /// The nearest point known of the active set ahead.
   const PathPoint& ahead() const { return entered ? entered->begin : at; }
 };
 
@@ -49,7 +50,7 @@ struct CornerPassed {
 CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> landed,
                          const std::vector<VisitedCorner>& visited);
 
-/// Passes a validity bound of a piece (spreading, gathering, …), `bound` among its guards.
+/// Passes a validity bound of an active set (spreading, gathering, …), `bound` among its guards.
 CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound);
 
 /// The lowest of the validity bounds that a point has passed, if one has been. A span that has just begun may still be

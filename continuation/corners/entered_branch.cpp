@@ -34,7 +34,7 @@ class SideOfCorner {
         guard_tolerance_(guard_tolerance) {
     corrector_.inspect(corner_, metric_, point.along);
     of_K_ = corrector_.factorized().equations().K.cols();
-    const Index forces = system.multiplier_count(corner_.piece);
+    const Index forces = system.multiplier_count(corner_.active_set);
     mode_.dx.segment(of_K_ - forces, forces).setZero();
   }
 

@@ -22,7 +22,7 @@ bool begins_with_length(const Transition& transition) {
 }
 
 bool is_of_mesh(const System& system, const State& state, const Direction& forward, Index guard, double slack) {
-  if (guard < static_cast<Index>(state.piece.size())) return false;
+  if (guard < static_cast<Index>(state.active_set.size())) return false;
   const std::vector<Transition> ahead = system.transitions(state, forward, guard, slack);
   return !ahead.empty() && ahead.front().change == Transition::Change::remeshed;
 }
@@ -32,12 +32,12 @@ namespace {
 constexpr double shortened_early = 0.3;  // of its length: a span that is entered early
 constexpr double surely_below = 1e-4;    // of a guard where a new span is short
 
-// Whether the place of a change is known on the piece ahead alone, by a quantity if there is one.
+// Whether the place of a change is known on the active set ahead alone, by a quantity if there is one.
 bool is_known_ahead(Transition::Change change) {
   return change == Transition::Change::gathers || change == Transition::Change::joins;
 }
 
-// The piece ahead: its metric, and a direction in which it is entered.
+// The active set ahead: its metric, and a direction in which it is entered.
 struct Ahead {
   Metric metric;
   Direction along{};
@@ -45,7 +45,7 @@ struct Ahead {
 
 Ahead ahead_of(const TraceTools& tools, const Transition& transition, double lambda_scale) {
   const State& guess = transition.guess.get();
-  Ahead ahead{.metric = tools.metric_on(guess.piece, lambda_scale), .along = transition.forward};
+  Ahead ahead{.metric = tools.metric_on(guess.active_set, lambda_scale), .along = transition.forward};
   const bool is_known = transition.forward.dx.size() > 0 && ahead.metric.norm(transition.forward) > 0.0;
   if (!is_known) ahead.along = {.dx = Vector::Zero(guess.x.size()), .dlambda = 1.0};
   return ahead;
@@ -63,16 +63,16 @@ const TargetValue* value_moved_over(const std::vector<TargetValue>& targets, con
 // A contact that has just changed, or is new, and whose force or gap a change of mesh moves below zero.
 std::optional<Index> contact_moved_below(const TraceTools& tools, const PathPoint& behind, const State& ahead) {
   const double tolerance = tools.options.guard_tolerance;
-  bool may_be = ahead.piece.size() > behind.state.piece.size();
-  for (Index j = 0; j < static_cast<Index>(behind.state.piece.size()); ++j)
+  bool may_be = ahead.active_set.size() > behind.state.active_set.size();
+  for (Index j = 0; j < static_cast<Index>(behind.state.active_set.size()); ++j)
     may_be = may_be || (std::abs(behind.guards[j]) <= tolerance && behind.guard_rates[j] > 0.0);
-  if (!may_be || ahead.piece.empty()) return std::nullopt;
+  if (!may_be || ahead.active_set.empty()) return std::nullopt;
   Index lowest = 0;
-  const double least = tools.system.guards(ahead).head(static_cast<Index>(ahead.piece.size())).minCoeff(&lowest);
+  const double least = tools.system.guards(ahead).head(static_cast<Index>(ahead.active_set.size())).minCoeff(&lowest);
   return least < -tolerance ? std::optional(lowest) : std::nullopt;
 }
 
-// From a transition's guess to an equilibrium of the piece ahead. A new mesh moves the path by the error of its
+// From a transition's guess to an equilibrium of the active set ahead. A new mesh moves the path by the error of its
 // elements: where that would move it over a target value, or off one, the point is the one at which that quantity has
 // the value of before; and where a contact has just changed, or one that is new would be inside, the one at which that
 // has neither gap nor force. So what lay ahead still does, and what was met is met no more.
@@ -114,7 +114,7 @@ bool is_beyond_mesh(const System& system, const PathPoint& at, double tolerance)
 // Whether the guards hold within the error of the mesh, but for bounds of the mesh.
 bool guards_hold(const TraceTools& tools, const State& state, const Direction& forward, const Vector& guards) {
   for (Index j = 0; j < guards.size(); ++j) {
-    const double error = tools.options.mesh_error_of(state.piece, j);
+    const double error = tools.options.mesh_error_of(state.active_set, j);
     if (guards[j] < -error && !is_of_mesh(tools.system, state, forward, j, error)) return false;
   }
   return true;
@@ -150,8 +150,8 @@ bool lies_back(const Transition& transition, const PathPoint& from, const PathPo
          (at.state.lambda - from.state.lambda) * rate < -roundoff * rate * rate;
 }
 
-// A point of the piece ahead at which its new span has another length, reached from a point of that piece. Empty where
-// it is farther off the tangent than may be trusted: there it may lie on another branch.
+// A point of the active set ahead at which its new span has another length, reached from a point of that active set.
+// Empty where it is farther off the tangent than may be trusted: there it may lie on another branch.
 std::optional<PathPoint> with_span(TraceTools& tools, const Transition& transition, const Metric& metric,
                                    const PathPoint& from, double length) {
   constexpr double sure = 0.25;  // of the step
@@ -178,7 +178,7 @@ bool is_of_length(const Row& guard) {
 std::optional<double> bound_of_span(const System& system, const Observable& length, const PathPoint& at, double most) {
   const Vector of_length = length.gradient(at.state).dx;
   std::optional<double> lowest;
-  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j) {
+  for (auto j = static_cast<Index>(at.state.active_set.size()); j < at.guards.size(); ++j) {
     if (at.guards[j] >= most) continue;
     const Row row = system.guard_gradient(at.state, j);
     const bool is_of_span =
@@ -188,8 +188,8 @@ std::optional<double> bound_of_span(const System& system, const Observable& leng
   return lowest;
 }
 
-// Whether the guards hold where a piece begins with a short span, but for bounds of the mesh, of the length of that
-// span, which grows, and of its mirror images, which are as long.
+// Whether the guards hold where an active set begins with a short span, but for bounds of the mesh, of the length of
+// that span, which grows, and of its mirror images, which are as long.
 bool begins_within(const System& system, const Observable& length, const PathPoint& begin, double tolerance) {
   constexpr double as_long = 1e-6;  // in the scale of guards
   if (begin.guards.size() == 0 || begin.guards.minCoeff() >= -tolerance) return true;
@@ -204,7 +204,7 @@ bool begins_within(const System& system, const Observable& length, const PathPoi
 }
 
 // Whether a target value lies between a change of contact at which its quantity turns and a point behind that: on the
-// piece that ends there it is not ahead.
+// active set that ends there it is not ahead.
 bool value_lies_behind_turn(const std::vector<TargetValue>& targets, const PathPoint& change, const State& behind) {
   return std::any_of(targets.begin(), targets.end(), [&](const TargetValue& target) {
     return lies_between(target, change.state, behind) &&
@@ -227,7 +227,7 @@ Beginning begin_of(TraceTools& tools, const Transition& transition, const PathPo
   PathPoint& begin = beginning.at;
   begin.arc = from.arc;
   if (!transition.quantity) return beginning;
-  const Metric metric = tools.metric_on(first.state.piece, lambda_scale);
+  const Metric metric = tools.metric_on(first.state.active_set, lambda_scale);
   const double whole = transition.quantity->value(first.state);
   const double least = (1.0 - roundoff) * std::max(shortest * whole, transition.least);
   double length = whole, kept = 0.5;
@@ -270,7 +270,7 @@ double scatter_of(TraceTools& tools, const Entered& entered, double lambda_scale
   const Transition& transition = *entered.transition;
   if (!transition.quantity || !is_known_ahead(transition.change)) return 0.0;
   const PathPoint& at = entered.at;
-  const Metric metric = tools.metric_on(at.state.piece, lambda_scale);
+  const Metric metric = tools.metric_on(at.state.active_set, lambda_scale);
   double scatter = 0.0;
   for (const double off : {-beside, beside}) {
     const CorrectorResult again = tools.corrector.correct_patiently(
@@ -283,9 +283,9 @@ double scatter_of(TraceTools& tools, const Entered& entered, double lambda_scale
 
 namespace {
 
-// Whether a guard is below zero at a point and sinks: the piece is none of the path's, however little that is. Of a
-// part pressed on a wall that has hardly any length the pressure is hardly any, too, where the wall would have to pull.
-// `error`: what the error of a mesh may make of guard j.
+// Whether a guard is below zero at a point and sinks: the active set is none of the path's, however little that is. Of
+// a part pressed on a wall that has hardly any length the pressure is hardly any, too, where the wall would have to
+// pull. `error`: what the error of a mesh may make of guard j.
 template <typename Error>
 bool sinks(const System& system, const PathPoint& at, const Error& error) {
   for (Index j = 0; j < at.guards.size(); ++j)
@@ -294,9 +294,9 @@ bool sinks(const System& system, const PathPoint& at, const Error& error) {
   return false;
 }
 
-// A first point of the piece behind a transition from which it can be followed back to where its span is much shorter,
-// and holds, its mesh too: there but for bounds of the length of the span itself. What is touched between the two is
-// found by the step from there. Empty where there is none.
+// A first point of the active set behind a transition from which it can be followed back to where its span is much
+// shorter, and holds, its mesh too: there but for bounds of the length of the span itself. What is touched between the
+// two is found by the step from there. Empty where there is none.
 std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transition, const PathPoint& from,
                                      double lambda_scale) {
   const Ahead ahead = ahead_of(tools, transition, lambda_scale);
@@ -311,9 +311,9 @@ std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transi
   return tools.system.admissible(begin.state, -penetration_tolerance) ? std::optional(std::move(first)) : std::nullopt;
 }
 
-// Behind a transition a piece with a span at whose first length another bound is passed already, or which is not found
-// with that length: it is entered where the span is shorter, and followed from there. `part` is that of the first
-// length. Empty where no piece begins so.
+// Behind a transition an active set with a span at whose first length another bound is passed already, or which is not
+// found with that length: it is entered where the span is shorter, and followed from there. `part` is that of the first
+// length. Empty where no active set begins so.
 std::optional<Entered> enter_early(TraceTools& tools, const Transition& transition, const PathPoint& from,
                                    double lambda_scale, double part) {
   if (!begins_with_length(transition) || !transition.quantity) return std::nullopt;
@@ -339,7 +339,7 @@ std::optional<PathPoint> in_sense_of_counts(const TraceTools& tools, const Stabi
     at.tangent = reversed(std::move(at.tangent));
     at.guard_rates = -at.guard_rates;
   }
-  const auto error = [&](Index j) { return tools.options.mesh_error_of(at.state.piece, j); };
+  const auto error = [&](Index j) { return tools.options.mesh_error_of(at.state.active_set, j); };
   return sinks(tools.system, at, error) ? std::nullopt : std::optional(std::move(at));
 }
 

@@ -5,46 +5,47 @@
 
 #include "continuation/trace_tools.hpp"
 
-/// The first point of a piece behind a bound, where a change of contact or of the mesh leads on.
+/// The first point of an active set behind a bound, where a change of contact or of the mesh leads on.
 namespace arcwall {
 
-/// Whether there is a piece behind, or only a reason to end.
+/// Whether there is an active set behind, or only a reason to end.
 bool leads_on(Transition::Change change);
 
-/// Whether the first point on the piece ahead lies a little beyond the bound, with a new stretch of some length.
+/// Whether the first point on the active set ahead lies a little beyond the bound, with a new stretch of some length.
 bool begins_with_length(const Transition& transition);
 
-/// Whether behind a bound there is the same piece on another mesh: a state beyond it is none the worse.
+/// Whether behind a bound there is the same active set on another mesh: a state beyond it is none the worse.
 bool is_of_mesh(const System& system, const State& state, const Direction& forward, Index guard, double slack);
 
-/// Where a piece begins, as far as it is followed back from its first point.
+/// Where an active set begins, as far as it is followed back from its first point.
 struct Beginning {
   PathPoint at;
-  bool ends_there = false;  ///< nearer the bound the piece does not hold
+  bool ends_there = false;  ///< nearer the bound the active set does not hold
 };
 
-/// A transition and the first point behind it; where its piece begins before that, with a span that is shorter.
+/// A transition and the first point behind it; where its active set begins before that, with a span that is shorter.
 struct Entered {
   const Transition* transition;
   PathPoint at;
   std::optional<Beginning> begin{};
 };
 
-/// Where a piece begins whose first point has a new span of some length: it is followed back towards spans of no length
-/// as long as it is followed surely, and holds, to a sixteenth; of shorter spans neither forces nor counts are sure.
-/// Only values that are met nowhere else are followed farther. So the first point is reached by a step like any other.
+/// Where an active set begins whose first point has a new span of some length: it is followed back towards spans of no
+/// length as long as it is followed surely, and holds, to a sixteenth; of shorter spans neither forces nor counts are
+/// sure. Only values that are met nowhere else are followed farther. So the first point is reached by a step like any
+/// other.
 Beginning begin_of(TraceTools& tools, const Transition& transition, const PathPoint& first, const PathPoint& from,
                    double lambda_scale);
 
-/// The first point of the piece behind a transition, with its count. Empty if none is found.
+/// The first point of the active set behind a transition, with its count. Empty if none is found.
 std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, const PathPoint& from,
                                double lambda_scale, Effort effort = Effort::usual);
 
-/// Whether the side conditions hold at the first point of a piece, but for bounds of its mesh.
+/// Whether the side conditions hold at the first point of an active set, but for bounds of its mesh.
 bool holds_at(const TraceTools& tools, const PathPoint& at);
 
-/// By how much λ of a change that is known on the piece ahead by a quantity differs where it is sought from beside:
-/// what round-off makes of the forces, and with them of the quantity. 0 of other changes.
+/// By how much λ of a change that is known on the active set ahead by a quantity differs where it is sought from
+/// beside: what round-off makes of the forces, and with them of the quantity. 0 of other changes.
 double scatter_of(TraceTools& tools, const Entered& entered, double lambda_scale);
 
 /// The first of the transitions behind which a point is found, and better one that does not lie back. One that is not

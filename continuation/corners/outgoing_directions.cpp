@@ -35,7 +35,7 @@ bool add_gap_rates(const UnilateralSystem& system, const std::vector<Index>& deg
     const Row gap = system.guard_gradient(problem.open, contact);
     problem.a[i] = apply(gap, problem.free_rate);
     for (Index j = 0; j < w; ++j) problem.M(i, j) = apply(gap, problem.response[static_cast<std::size_t>(j)]);
-    problem.M(i, i) += system.compliance(problem.open.piece, contact);
+    problem.M(i, i) += system.compliance(problem.open.active_set, contact);
   }
   return problem.a.allFinite() && problem.M.allFinite();
 }
@@ -69,12 +69,12 @@ std::optional<RateProblem> reduce_by_gap(const UnilateralSystem& system, RatePro
 std::optional<RateProblem> reduce(const UnilateralSystem& system, const State& corner,
                                   const std::vector<Index>& degenerate, bool small, CornerWorkspace& workspace) {
   RateProblem problem;
-  Piece piece = corner.piece;
-  for (const Index j : degenerate) piece[static_cast<std::size_t>(j)] = 0;
-  problem.open = system.with_piece(corner, piece);
+  ActiveSet active_set = corner.active_set;
+  for (const Index j : degenerate) active_set[static_cast<std::size_t>(j)] = 0;
+  problem.open = system.with_active_set(corner, active_set);
   auto& [now, solver] = workspace;
   system.linearize(problem.open, now);
-  const FactorStatus status = solver.factorize(now, system.multiplier_count(piece));
+  const FactorStatus status = solver.factorize(now, system.multiplier_count(active_set));
   if (status == FactorStatus::not_finite) return std::nullopt;
   const auto w = static_cast<Index>(degenerate.size());
   Matrix right(now.F.size(), 1 + w);
@@ -190,7 +190,7 @@ std::vector<Solution> pivoted(const RateProblem& problem) {
   return found;
 }
 
-// The direction of a solution in the unknowns of its own piece; none if a rate has the wrong sign.
+// The direction of a solution in the unknowns of its own active set; none if a rate has the wrong sign.
 std::vector<OutgoingDirection> direction_of(const UnilateralSystem& system, const State& corner,
                                             const std::vector<Index>& degenerate, const RateProblem& problem,
                                             const Solution& solution, const CornerOptions& options) {
@@ -213,37 +213,37 @@ std::vector<OutgoingDirection> direction_of(const UnilateralSystem& system, cons
   if ((p.array() < -p_zero).any() || (gap_rate.array() < -g_zero).any()) return {};
 
   OutgoingDirection way;
-  way.piece = corner.piece;
-  way.loading = Piece(corner.piece.size(), 0);
+  way.active_set = corner.active_set;
+  way.loading = ActiveSet(corner.active_set.size(), 0);
   for (Index i = 0; i < p.size(); ++i) {
     const auto j = static_cast<std::size_t>(degenerate[static_cast<std::size_t>(i)]);
-    if (p[i] > p_zero) way.piece[j] = way.loading[j] = 1;
-    if (p[i] <= p_zero && gap_rate[i] > g_zero) way.piece[j] = 0;
+    if (p[i] > p_zero) way.active_set[j] = way.loading[j] = 1;
+    if (p[i] <= p_zero && gap_rate[i] > g_zero) way.active_set[j] = 0;
   }
   way.direction.dlambda = motion.dlambda;
-  way.direction.dx = system.transfer(motion.dx, problem.open.piece, way.piece);
+  way.direction.dx = system.transfer(motion.dx, problem.open.active_set, way.active_set);
   for (Index i = 0; i < p.size(); ++i)
-    if (const auto k = system.multiplier_index(way.piece, degenerate[static_cast<std::size_t>(i)]))
+    if (const auto k = system.multiplier_index(way.active_set, degenerate[static_cast<std::size_t>(i)]))
       way.direction.dx[*k] = p[i] * system.multiplier_scale();
   return {std::move(way)};
 }
 
-// The way on in which these of the degenerate contacts are closed and λ grows or falls, by the equations of that piece
-// alone; none if a rate has the wrong sign.
-std::vector<OutgoingDirection> way_on_piece(const UnilateralSystem& system, const State& corner,
-                                            const std::vector<Index>& degenerate, unsigned closed, double sign,
-                                            const CornerOptions& options, CornerWorkspace& workspace) {
-  Piece piece = corner.piece;
+// The way on in which these of the degenerate contacts are closed and λ grows or falls, by the equations of that active
+// set alone; none if a rate has the wrong sign.
+std::vector<OutgoingDirection> way_on_active_set(const UnilateralSystem& system, const State& corner,
+                                                 const std::vector<Index>& degenerate, unsigned closed, double sign,
+                                                 const CornerOptions& options, CornerWorkspace& workspace) {
+  ActiveSet active_set = corner.active_set;
   for (std::size_t i = 0; i < degenerate.size(); ++i)
-    piece[static_cast<std::size_t>(degenerate[i])] = static_cast<std::uint8_t>(closed >> i & 1U);
-  const State here = system.with_piece(corner, piece);
+    active_set[static_cast<std::size_t>(degenerate[i])] = static_cast<std::uint8_t>(closed >> i & 1U);
+  const State here = system.with_active_set(corner, active_set);
   auto& [now, solver] = workspace;
   system.linearize(here, now);
-  if (solver.factorize(now, system.multiplier_count(piece)) != FactorStatus::ok) return {};
+  if (solver.factorize(now, system.multiplier_count(active_set)) != FactorStatus::ok) return {};
   Matrix X = -sign * now.F_lambda;
   if (!solver.solve_inner(X)) return {};
   const Direction motion{.dx = X.col(0), .dlambda = sign};
-  const double moves = std::sqrt((system.weights(piece).array() * motion.dx.array().square()).sum());
+  const double moves = std::sqrt((system.weights(active_set).array() * motion.dx.array().square()).sum());
   Vector rates(static_cast<Index>(degenerate.size()));
   double loads = 0.0;  // the greatest rate of a force
   for (std::size_t i = 0; i < degenerate.size(); ++i) {
@@ -251,33 +251,33 @@ std::vector<OutgoingDirection> way_on_piece(const UnilateralSystem& system, cons
     if (closed >> i & 1U) loads = std::max(loads, std::abs(rates[static_cast<Index>(i)]));
   }
   OutgoingDirection way;
-  way.piece = corner.piece;
-  way.loading = Piece(corner.piece.size(), 0);
+  way.active_set = corner.active_set;
+  way.loading = ActiveSet(corner.active_set.size(), 0);
   for (std::size_t i = 0; i < degenerate.size(); ++i) {
     const bool is_closed = (closed >> i & 1U) != 0;
     const double zero = options.rate_tolerance * (is_closed ? loads : moves), rate = rates[static_cast<Index>(i)];
     const auto j = static_cast<std::size_t>(degenerate[i]);
     if (rate < -zero) return {};
     if (rate <= zero) continue;
-    way.piece[j] = way.loading[j] = static_cast<std::uint8_t>(is_closed);
+    way.active_set[j] = way.loading[j] = static_cast<std::uint8_t>(is_closed);
   }
   const double length = std::hypot(moves, 1.0);
-  way.direction = {.dx = system.transfer(motion.dx / length, piece, way.piece), .dlambda = sign / length};
+  way.direction = {.dx = system.transfer(motion.dx / length, active_set, way.active_set), .dlambda = sign / length};
   return {std::move(way)};
 }
 
 // Where next to nothing but degenerate contacts resists a motion, K with all of them open says nothing of the rest.
-// The last piece that is tried has all of them closed.
-std::vector<OutgoingDirection> ways_by_piece(const UnilateralSystem& system, const State& corner,
-                                             const std::vector<Index>& degenerate, const CornerOptions& options,
-                                             CornerWorkspace& workspace) {
-  constexpr std::size_t most = 6;  // contacts up to which all pieces are tried
+// The last active set that is tried has all of them closed.
+std::vector<OutgoingDirection> ways_by_active_set(const UnilateralSystem& system, const State& corner,
+                                                  const std::vector<Index>& degenerate, const CornerOptions& options,
+                                                  CornerWorkspace& workspace) {
+  constexpr std::size_t most = 6;  // contacts up to which all active sets are tried
   std::vector<OutgoingDirection> found;
   if (degenerate.size() > most) return found;
   const unsigned all = (1U << degenerate.size()) - 1U;
   for (const double sign : {1.0, -1.0})
     for (unsigned closed = 0; closed <= all; ++closed)
-      for (OutgoingDirection& way : way_on_piece(system, corner, degenerate, closed, sign, options, workspace))
+      for (OutgoingDirection& way : way_on_active_set(system, corner, degenerate, closed, sign, options, workspace))
         found.push_back(std::move(way));
   return found;
 }
@@ -285,7 +285,7 @@ std::vector<OutgoingDirection> ways_by_piece(const UnilateralSystem& system, con
 // Whether two directions move the structure, whose unknowns are the first n, alike; contact forces follow from that.
 bool same(const UnilateralSystem& system, Index n, const OutgoingDirection& a, const OutgoingDirection& b,
           double tolerance) {
-  const Vector weights = system.weights(a.piece);
+  const Vector weights = system.weights(a.active_set);
   const auto x = [n](const OutgoingDirection& way) { return way.direction.dx.head(n).array(); };
   const auto w = weights.head(n).array();
   const double aa = (w * x(a).square()).sum(), bb = (w * x(b).square()).sum(), ab = (w * x(a) * x(b)).sum();
@@ -308,13 +308,13 @@ std::vector<OutgoingDirection> outgoing_directions(const UnilateralSystem& syste
     if (std::none_of(found.begin(), found.end(), known)) found.push_back(std::move(way));
   };
   std::vector<OutgoingDirection> ways;
-  if (options.max_enumerated == 0) ways = ways_by_piece(system, corner, degenerate, options, workspace);
+  if (options.max_enumerated == 0) ways = ways_by_active_set(system, corner, degenerate, options, workspace);
   if (!ways.empty()) {
-    Piece all = corner.piece;
+    ActiveSet all = corner.active_set;
     for (const Index j : degenerate) all[static_cast<std::size_t>(j)] = 1;
     n = workspace.equations.K.cols() - system.multiplier_count(all);
   } else if (const auto problem = reduce(system, corner, degenerate, small, workspace)) {
-    n = workspace.equations.K.cols() - system.multiplier_count(problem->open.piece);
+    n = workspace.equations.K.cols() - system.multiplier_count(problem->open.active_set);
     for (const Solution& solution : small ? enumerate(*problem) : pivoted(*problem))
       for (OutgoingDirection& way : direction_of(system, corner, degenerate, *problem, solution, options))
         ways.push_back(std::move(way));

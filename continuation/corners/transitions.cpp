@@ -18,7 +18,7 @@ constexpr int most_bounds_at_one_place = 50;
 
 // Of a transition that is an event. `more`: separate contacts ahead of it, less those before it. A zone that begins or
 // ends at a support, whose guard is a bound, is no part of another contact.
-EventKind kind_of(const Transition& transition, Index more, const Piece& of_contacts) {
+EventKind kind_of(const Transition& transition, Index more, const ActiveSet& of_contacts) {
   const bool at_support = std::any_of(transition.contacts.begin(), transition.contacts.end(),
                                       [&](Index j) { return j >= static_cast<Index>(of_contacts.contacts()); });
   switch (transition.change) {
@@ -56,20 +56,21 @@ BranchEnd end_before(const std::vector<Transition>& transitions, const std::stri
 
 // A bound of the mesh alone that another transition has left behind.
 std::optional<Index> mesh_bound_behind(const System& system, const PathPoint& at, double tolerance) {
-  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j)
+  for (auto j = static_cast<Index>(at.state.active_set.size()); j < at.guards.size(); ++j)
     if (at.guards[j] < -tolerance && is_of_mesh(system, at.state, at.tangent, j, tolerance)) return j;
   return std::nullopt;
 }
 
-// By how much λ of a change that is known on the piece ahead lies before that of the bound where it was looked for,
-// from which the path leads on to it: by the error of the mesh, or what the last stretch of the one piece has lost in
-// round-off.
+// By how much λ of a change that is known on the active set ahead lies before that of the bound where it was looked
+// for, from which the path leads on to it: by the error of the mesh, or what the last stretch of the one active set has
+// lost in round-off.
 double lies_back_by(const PathPoint& bound, const PathPoint& change) {
   const double on = change.state.lambda - bound.state.lambda;
   return on * bound.tangent.dlambda < 0.0 ? std::abs(on) : 0.0;
 }
 
-// The corner's events: the transition's own, and what turns with it. `ahead` is the nearest point of the piece ahead.
+// The corner's events: the transition's own, and what turns with it. `ahead` is the nearest point of the active set
+// ahead.
 void add_events(TraceTools& tools, const Corner& corner, const PathPoint& at, const Entered& entered,
                 const PathPoint& ahead, std::vector<Event>& events) {
   const Transition& transition = *entered.transition;
@@ -81,7 +82,7 @@ void add_events(TraceTools& tools, const Corner& corner, const PathPoint& at, co
               .guards = transition.contacts,
               .continuum = transition.continuum};
   if (transition.change != Transition::Change::remeshed) {
-    const Piece &before = at.state.piece, &behind = ahead.state.piece;
+    const ActiveSet &before = at.state.active_set, &behind = ahead.state.active_set;
     const Index more = tools.system.separate_contacts(behind) - tools.system.separate_contacts(before);
     event.kind = kind_of(transition, more, transition.change == Transition::Change::gathers ? behind : before);
     if (!begins_with_length(transition)) {
@@ -98,7 +99,7 @@ void add_events(TraceTools& tools, const Corner& corner, const PathPoint& at, co
 }
 
 // Whether one direction more, or less, gives way with a span that grows while λ goes on. Then another branch leaves
-// there, or the piece is not the path's.
+// there, or the active set is not the path's.
 bool changes_count_at_corner(const Corner& corner, const PathPoint& at, const PathPoint& begin) {
   const std::optional<Index>&before = corner.before.unstable, &behind = begin.count.unstable;
   return before && behind && std::abs(*behind - *before) == 1 && begin.tangent.dlambda * at.tangent.dlambda > 0.0;
@@ -108,7 +109,7 @@ bool changes_count_at_corner(const Corner& corner, const PathPoint& at, const Pa
 // the corner itself, where the span has no length. Its mode is that of the path's first point behind.
 std::optional<BranchPoint> pitchfork_at_corner(TraceTools& tools, const Corner& corner, const PathPoint& begin) {
   if (begin.count.unstable <= corner.before.unstable) return std::nullopt;
-  const Metric metric = tools.metric_on(begin.state.piece, corner.lambda_scale);
+  const Metric metric = tools.metric_on(begin.state.active_set, corner.lambda_scale);
   BranchPoint point = branch_point_before(tools.system, tools.corrector, metric, begin);
   if (point.type != BranchType::pitchfork || point.mode.dx.size() == 0) return std::nullopt;
   point.at_corner = true;
@@ -132,7 +133,7 @@ void add_pitchfork(const PathPoint& at, const PathPoint& begin, BranchPoint poin
 
 std::optional<Index> bound_passed_at(const PathPoint& at, double tolerance) {
   std::optional<Index> lowest;
-  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j)
+  for (auto j = static_cast<Index>(at.state.active_set.size()); j < at.guards.size(); ++j)
     if (at.guards[j] < -tolerance && at.guard_rates[j] <= 0.0 && (!lowest || at.guards[j] < at.guards[*lowest]))
       lowest = j;
   return lowest;
@@ -163,7 +164,7 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
       }
       add_events(tools, corner, passed.at, *entered, begin, passed.events);
       if (pitchfork) add_pitchfork(passed.at, begin, std::move(*pitchfork), passed.events);
-      passed.entered = EnteredPiece{.begin = std::move(begin)};
+      passed.entered = EnteredActiveSet{.begin = std::move(begin)};
       if (holds_at(tools, entered->at)) passed.entered->first = std::move(entered->at);
       return passed;
     }
@@ -188,7 +189,7 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
 
 namespace {
 
-// The start of a step on the piece of a transition from it.
+// The start of a step on the active set of a transition from it.
 std::optional<Departure> departure_on(TraceTools& tools, const StepOrigin& origin,
                                       const std::optional<Transition>& transition) {
   const PathPoint& from = origin.point();

@@ -6,13 +6,13 @@
 
 namespace arcwall {
 
-/// The start of a step in the unknowns of a piece whose guards see what is below `margin` at `violated`, where the step
-/// led. Empty if no such piece passes through the start.
+/// The start of a step in the unknowns of an active set whose guards see what is below `margin` at `violated`, where
+/// the step led. Empty if no such active set passes through the start.
 std::optional<Departure> with_new_contact(TraceTools& tools, const StepOrigin& origin, const State& violated,
                                           double margin);
 
 /// The same on a mesh that suits a guard which was landed on at the end of the step. Empty if the start has it, or no
-/// such piece passes through it.
+/// such active set passes through it.
 std::optional<Departure> with_mesh_for_landing(TraceTools& tools, const StepOrigin& origin, const State& end,
                                                Index guard);
 

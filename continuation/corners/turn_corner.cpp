@@ -15,7 +15,7 @@ constexpr int most_changes_at_one_place = 50;
 // The contacts that are degenerate at a corner, the one that was landed on among them.
 std::vector<Index> degenerate_at(const TraceTools& tools, const Corner& corner, std::optional<Index> landed) {
   const double tolerance = std::max(tools.options.guard_tolerance, 2.0 * corner.slack);
-  std::vector<Index> degenerate = degenerate_contacts(corner.at.guards, corner.at.state.piece, tolerance);
+  std::vector<Index> degenerate = degenerate_contacts(corner.at.guards, corner.at.state.active_set, tolerance);
   if (landed && std::find(degenerate.begin(), degenerate.end(), *landed) == degenerate.end())
     degenerate.push_back(*landed);
   return degenerate;
@@ -30,8 +30,8 @@ Event one_sided_branch_point(const TraceTools& tools, const Corner& corner, cons
   point->along = behind.tangent;
   point->mesh_artefact = tools.options.node_contacts;
   for (const OutgoingDirection& way : untaken) {
-    const Metric metric = tools.metric_on(way.piece, corner.lambda_scale);
-    point->ways.push_back({.piece = way.piece, .direction = unit(metric, way.direction)});
+    const Metric metric = tools.metric_on(way.active_set, corner.lambda_scale);
+    point->ways.push_back({.active_set = way.active_set, .direction = unit(metric, way.direction)});
   }
   return {.kind = EventKind::branch_point,
           .state = behind.state,
@@ -51,7 +51,7 @@ std::vector<Event> events_at(const TraceTools& tools, const Corner& corner, cons
               .lambda_uncertainty = 0.0,
               .unstable_before = corner.before.unstable,
               .unstable_after = behind.count.unstable};
-  const Piece &old = corner.at.state.piece, &now = behind.state.piece;
+  const ActiveSet &old = corner.at.state.active_set, &now = behind.state.active_set;
   for (const EventKind kind : {EventKind::contact_closes, EventKind::contact_opens}) {
     event.kind = kind;
     event.guards.clear();
@@ -66,12 +66,12 @@ std::vector<Event> events_at(const TraceTools& tools, const Corner& corner, cons
   return events;
 }
 
-// The corner as a point of the piece along a direction, with the count along it.
+// The corner as a point of the active set along a direction, with the count along it.
 std::optional<PathPoint> point_along(TraceTools& tools, const Corner& corner, const ChosenDirection& chosen) {
   const PathPoint& before = corner.at;
   const OutgoingDirection& way = chosen.taken;
-  const State state = tools.system.with_piece(before.state, way.piece);
-  const Metric metric = tools.metric_on(way.piece, corner.lambda_scale);
+  const State state = tools.system.with_active_set(before.state, way.active_set);
+  const Metric metric = tools.metric_on(way.active_set, corner.lambda_scale);
   CorrectorResult result = tools.corrector.inspect(state, metric, way.direction);
   if (!result.converged()) return std::nullopt;
   PathPoint at = path_point(tools.system, metric, std::move(result), way.direction);
@@ -80,8 +80,8 @@ std::optional<PathPoint> point_along(TraceTools& tools, const Corner& corner, co
   at.iterations = before.iterations;
   std::optional<Index> unstable = chosen.unstable;
   if (!unstable)
-    unstable = holding_along(tools, way, before.state) == way.piece ? at.negative_eigenvalues
-                                                                    : count_along(tools, way, before.state);
+    unstable = holding_along(tools, way, before.state) == way.active_set ? at.negative_eigenvalues
+                                                                         : count_along(tools, way, before.state);
   // Often the strongly closed contacts are those of before.
   if (before.negative_eigenvalues) tools.counter.remember(before.state, before.negative_eigenvalues);
   at.count = tools.counter.count(at.state, at.negative_eigenvalues);
@@ -92,17 +92,17 @@ std::optional<PathPoint> point_along(TraceTools& tools, const Corner& corner, co
 // Contacts that are degenerate but for the error of the mesh: of contacts that symmetry lets change at one place only
 // those on equal meshes do so to the last digit.
 std::vector<Index> nearly_degenerate_at(const Corner& corner, const std::vector<Index>& degenerate) {
-  std::vector<Index> near = degenerate_contacts(corner.at.guards, corner.at.state.piece, mesh_error);
+  std::vector<Index> near = degenerate_contacts(corner.at.guards, corner.at.state.active_set, mesh_error);
   std::erase_if(near, [&](Index j) { return std::find(degenerate.begin(), degenerate.end(), j) != degenerate.end(); });
   return near;
 }
 
-// The point of the piece along a direction that is nearest to the corner, where all guards hold: contacts that close or
-// open along it missed that by the error of the mesh. Empty where it is not so near.
+// The point of the active set along a direction that is nearest to the corner, where all guards hold: contacts that
+// close or open along it missed that by the error of the mesh. Empty where it is not so near.
 std::optional<PathPoint> point_beside(TraceTools& tools, const Corner& corner, const OutgoingDirection& way) {
   constexpr double beside = singular_point_accuracy;
-  const Metric metric = tools.metric_on(way.piece, corner.lambda_scale);
-  const State here = tools.system.with_piece(corner.at.state, way.piece);
+  const Metric metric = tools.metric_on(way.active_set, corner.lambda_scale);
+  const State here = tools.system.with_active_set(corner.at.state, way.active_set);
   const Direction forward = unit(metric, way.direction);
   double distance = 0.0;
   for (int round = 0; round < 3; ++round) {
@@ -141,7 +141,7 @@ std::optional<JointWay> leave_jointly(TraceTools& tools, const Corner& corner, c
   auto ways = outgoing_directions(tools.system, state, all, tools.options.corner, tools.corner_workspace);
   std::erase_if(ways, [&](const OutgoingDirection& way) {
     const bool changes = std::any_of(near.begin(), near.end(), [&](Index j) {
-      return way.piece[static_cast<std::size_t>(j)] != state.piece[static_cast<std::size_t>(j)];
+      return way.active_set[static_cast<std::size_t>(j)] != state.active_set[static_cast<std::size_t>(j)];
     });
     return !changes || count_along(tools, way, state) != Index{0};
   });

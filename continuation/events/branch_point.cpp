@@ -40,11 +40,12 @@ enum class Way { is_free, ends_at_a_wall, is_closed };
 
 Way way_to(const System& system, const State& from, const State& to, double guard_tolerance) {
   constexpr double distant = penetration_tolerance;
-  if (system.guard_count(to.piece) > 0) {
+  if (system.guard_count(to.active_set) > 0) {
     const Vector guards = system.guards(to);
     const auto violated = guards.array() < -guard_tolerance;
     if (violated.any()) {
-      const bool wall_ahead = to.piece == from.piece && (!violated || system.guards(from).array() > distant).all();
+      const bool wall_ahead =
+          to.active_set == from.active_set && (!violated || system.guards(from).array() > distant).all();
       return wall_ahead ? Way::ends_at_a_wall : Way::is_closed;
     }
   }
@@ -173,7 +174,7 @@ void find_crossing_branch(Corrector& corrector, const Metric& metric, BranchPoin
   point.type = BranchType::pitchfork;
   point.other = unit(metric, {.dx = std::move(*y), .dlambda = 1.0});
   for (const Direction& direction : {point.other, reversed(point.other)})
-    point.ways.push_back({.piece = point.state.piece, .direction = direction});
+    point.ways.push_back({.active_set = point.state.active_set, .direction = direction});
 }
 
 WayOff way_off(const BranchPoint& point, int sign) {
@@ -205,7 +206,7 @@ std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, c
     CorrectorResult at =
         corrector.correct(moved(point.state, way.forward, distance), plane, metric, way.forward, distance);
     if (at.converged()) {
-      at.state.piece = system.canonical_piece(at.state);
+      at.state.active_set = system.canonical_active_set(at.state);
       const Way to = way_to(system, point.state, at.state, guard_tolerance);
       if (to == Way::ends_at_a_wall) continue;
       const Direction chord = difference(at.state, point.state);

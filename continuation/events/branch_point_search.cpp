@@ -29,7 +29,7 @@ SingularPoint singular_at(TraceTools& tools, const StepOrigin& origin, const Sin
   branching->lambda_uncertainty = uncertain * std::abs(chord_dlambda);
   PathPoint at = point_at(tools, origin, place);
   branching->mesh_artefact = made_by_nodes(tools, at.state);
-  if (tools.system.multiplier_count(at.state.piece) > 0 && branching->type == BranchType::transcritical &&
+  if (tools.system.multiplier_count(at.state.active_set) > 0 && branching->type == BranchType::transcritical &&
       branching->mode.dx.size() > 0 && is_one_sided(tools, origin, *branching))
     branching->type = BranchType::one_sided;
   return {.place = {.what = EventPlace::What::branch_point, .which = 0, .t = place.t, .half_width = 0.0},
@@ -72,9 +72,10 @@ PathPoint point_at(TraceTools& tools, const StepOrigin& origin, const SingularPl
 bool made_by_nodes(const TraceTools& tools, const State& state) {
   if (!tools.options.node_contacts) return false;
   const System& system = tools.system;
-  for (std::size_t j = 0; j < state.piece.contacts(); ++j) {
+  for (std::size_t j = 0; j < state.active_set.contacts(); ++j) {
     const auto contact = static_cast<Index>(j);
-    if (state.piece[j] && !(system.is_two_sided(state.piece, contact) && system.compliance(state.piece, contact) > 0.0))
+    if (state.active_set[j] &&
+        !(system.is_two_sided(state.active_set, contact) && system.compliance(state.active_set, contact) > 0.0))
       return true;
   }
   return false;

@@ -69,7 +69,7 @@ bool mode_may_touch_zero(const StepOrigin& origin, const Segment& segment, Index
   if ((v0 > 0.0) != (v1 > 0.0)) return true;
   const double sign = v0 > 0.0 ? 1.0 : -1.0, least = std::min(std::abs(v0), std::abs(v1));
   if (least <= nothing * std::max(std::abs(v0), std::abs(v1))) return true;
-  if (const auto& last = origin.from.before; last && last->state.piece == from.state.piece) {
+  if (const auto& last = origin.from.before; last && last->state.active_set == from.state.active_set) {
     const double before = sign * origin.from.eigenvalues_before[here];
     const double length = Segment(origin.metric, *last, from).length();
     if (before > 0.0 && least_of_parabola(length, before, sign * v0, L, sign * v1) > shallow_dip * least) return false;
@@ -86,7 +86,8 @@ bool rises_from_zero(TraceTools& tools, const Segment& segment, Index there) {
   const PathPoint& to = segment.to();
   const double v1 = to.nearest.values[there];
   const Vector mode = to.nearest.vectors->col(there);
-  const double rate = eigenvalue_rate(tools.system, to.state, to.tangent, mode, mode, tools.workspace(to.state.piece));
+  const double rate =
+      eigenvalue_rate(tools.system, to.state, to.tangent, mode, mode, tools.workspace(to.state.active_set));
   return (v1 > 0.0) == (rate > 0.0) && std::abs(v1) <= segment.length() * std::abs(rate);
 }
 
@@ -94,8 +95,8 @@ bool rises_from_zero(TraceTools& tools, const Segment& segment, Index there) {
 
 bool may_touch_zero(TraceTools& tools, const StepOrigin& origin, const Segment& segment) {
   const NearNull &here = segment.from().nearest, &there = segment.to().nearest;
-  if (segment.from().state.piece != segment.to().state.piece || here.values.size() == 0) return false;
-  MidpointStiffness midpoint(tools.system, segment, origin.metric, tools.workspace(segment.from().state.piece));
+  if (segment.from().state.active_set != segment.to().state.active_set || here.values.size() == 0) return false;
+  MidpointStiffness midpoint(tools.system, segment, origin.metric, tools.workspace(segment.from().state.active_set));
   for (Index j = 0; j < there.values.size(); ++j) {
     const auto i = same_as(there.vectors->col(j), *here.vectors, origin.metric.weights());
     const bool counts = i && *i >= origin.from.zero_eigenvalues;

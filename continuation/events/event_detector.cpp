@@ -21,7 +21,7 @@ EventDetector turning_detector(const Equations& system, const Metric& metric,
   // at zero, as where contact has just closed.
   const auto rate = [&system, lambda_scale, quantity](const PathPoint& point) {
     const Row row = quantity->gradient(point.state);
-    const Metric here(system.weights(point.state.piece), lambda_scale);
+    const Metric here(system.weights(point.state.active_set), lambda_scale);
     const bool of_forces = ((here.weights().array() == 0.0) && (row.dx.array() != 0.0)).any();
     const double along = apply(row, point.tangent);
     const double own = of_forces ? std::max(std::abs(quantity->value(point.state)), std::abs(along)) : 0.0;

@@ -50,7 +50,7 @@ std::optional<ValueBetween> first_value_between(const std::vector<TargetValue>& 
 
 std::optional<PathPoint> point_beyond_bound(TraceTools& tools, const Metric& metric, const PathPoint& near,
                                             const ValueBetween& value) {
-  constexpr double entered = 1e-6;  // of a wall between contacts: farther beyond the bound the piece is another
+  constexpr double entered = 1e-6;  // of a wall between contacts: farther beyond the bound the active set is another
   auto at = point_on_value(tools, metric, tools.options.target_values[value.which], near);
   if (!at || !tools.system.admissible(at->state, -entered)) return std::nullopt;
   at->arc += value.distance;
@@ -69,8 +69,8 @@ std::optional<ArcEnd> land_beyond_bound(TraceTools& tools, const StepOrigin& ori
                 .turn = end.turn};
 }
 
-bool land_piece_ahead(TraceTools& tools, double lambda_scale, const ValueBetween& value, PathPoint& ahead) {
-  const Metric metric = tools.metric_on(ahead.state.piece, lambda_scale);
+bool land_active_set_ahead(TraceTools& tools, double lambda_scale, const ValueBetween& value, PathPoint& ahead) {
+  const Metric metric = tools.metric_on(ahead.state.active_set, lambda_scale);
   auto at = point_on_value(tools, metric, tools.options.target_values[value.which], ahead);
   if (!at) return false;
   at->count = tools.counter.count(at->state, at->negative_eigenvalues);

@@ -204,7 +204,7 @@ void Corrector::add_pairs(const State& here, const Metric& metric, const Eigen::
   }
   if (solved.cols() > 0) result.nearest = here_.tracker().advance(metric.weights(), solved);
   if (const auto negative = negative_by_pivots(solver.inner(), metric.weights(), result.nearest))
-    result.negative = *negative - system_.multiplier_count(here.piece);
+    result.negative = *negative - system_.multiplier_count(here.active_set);
 }
 
 }  // namespace arcwall

@@ -24,13 +24,14 @@ double unsure_at_start(const StepOrigin& origin, double tolerance) {
   return origin.leaves_branch_point ? singular_point_accuracy : tolerance;
 }
 
-// A piece may be entered a little before one of its validity bounds, on the way to where it is valid; and where the
-// mesh is drawn anew just behind a change of contact the guard that was zero there is so within the error of the mesh.
+// An active set may be entered a little before one of its validity bounds, on the way to where it is valid; and where
+// the mesh is drawn anew just behind a change of contact the guard that was zero there is so within the error of the
+// mesh.
 bool rises_from_below(const TraceOptions& options, const PathPoint& from, const PathPoint& to, Index guard,
                       double unsure) {
-  const bool is_contact = guard < static_cast<Index>(to.state.piece.size());
+  const bool is_contact = guard < static_cast<Index>(to.state.active_set.size());
   const double v = from.guards[guard];
-  const double error = options.mesh_error_of(to.state.piece, guard);
+  const double error = options.mesh_error_of(to.state.active_set, guard);
   return v < -unsure && (!is_contact || v >= -error) && from.guard_rates[guard] > 0.0 && to.guards[guard] > v;
 }
 
@@ -80,7 +81,7 @@ bool lands_where_it_began(const StepOrigin& origin, double tolerance, const Path
 // Where a continuum of equilibria lies ahead, the equations are singular at the change: see Transition::from_singular.
 bool is_singular_change(const TraceTools& tools, const PathPoint& at, const Landing& landing) {
   constexpr double singular = 1e-6;  // in the scale of guards
-  if (landing.guard < static_cast<Index>(at.state.piece.size()) || landing.slack > singular) return false;
+  if (landing.guard < static_cast<Index>(at.state.active_set.size()) || landing.slack > singular) return false;
   const double tolerance = std::max(tools.options.guard_tolerance, 2.0 * landing.slack);
   const auto ahead = tools.system.transitions(at.state, at.tangent, landing.guard, tolerance);
   return !ahead.empty() && (ahead.front().from_singular || ahead.front().change == Transition::Change::continuum);

@@ -11,8 +11,8 @@ State predicted(const System& system, PathMethod method, const StepOrigin& origi
   const bool controlled = method == PathMethod::load || method == PathMethod::displacement;
   constexpr double in_reach = 1.0;  // of guards
   const bool guarded =
-      system.guard_count(here.state.piece) > 0 && (here.guards.size() == 0 || here.guards.minCoeff() <= in_reach);
-  if (before && !controlled && !guarded && before->state.piece == here.state.piece) {
+      system.guard_count(here.state.active_set) > 0 && (here.guards.size() == 0 || here.guards.minCoeff() <= in_reach);
+  if (before && !controlled && !guarded && before->state.active_set == here.state.active_set) {
     const Segment last(origin.metric, *before, here);
     if (s <= reach * last.length()) return last.at(1.0 + s / last.length());
   }

@@ -14,8 +14,8 @@ struct Rejected {
   std::string where{};                                   ///< the wall that is entered, and where, if that is known
 };
 
-/// The step's start in the unknowns of a piece whose guards see what the step's end violates: the step is tried again
-/// from there.
+/// The step's start in the unknowns of an active set whose guards see what the step's end violates: the step is tried
+/// again from there.
 struct Retry {
   Departure finer{};
 };

@@ -62,11 +62,11 @@ class BorderedSolver {
   const Matrix& reduced() const { return reduced_; }
 
  private:
-  // As long as a linearization stays where it is and on one piece, so does the pattern of its K.
+  // As long as a linearization stays where it is and on one active set, so does the pattern of its K.
   struct Pattern {
     const SparseIndex* rows = nullptr;
     Index nonzeros = 0;
-    std::optional<Piece> piece{};
+    std::optional<ActiveSet> active_set{};
     bool operator==(const Pattern&) const = default;
   };
 

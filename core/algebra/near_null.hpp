@@ -38,7 +38,7 @@ NearNull near_null(const SlidingStabilityOperator& border, const Vector& weights
 /// symmetry is solved for along, so that no mode can come near unseen.
 class NearNullTracker {
  public:
-  /// Goes on from these vectors; their number of rows may be that of another piece.
+  /// Goes on from these vectors; their number of rows may be that of another active set.
   void start_from(const SharedMatrix& vectors) { pairs_ = vectors; }
 
   /// Those at hand, of any length: the pairs' after advance().

@@ -15,24 +15,25 @@ constexpr const char* of_an_event = "event";
 
 }  // namespace
 
-bool ArchiveModel::owns(const Piece& piece) const {
+bool ArchiveModel::owns(const ActiveSet& active_set) const {
   if (!system) return false;
-  if (piece.layout() && EventSystem::meaning_of(*piece.layout())) return event != nullptr && piece.empty();
-  const Piece open = system->open_piece();
-  if ((piece.layout() == nullptr) != (open.layout() == nullptr)) return false;
-  const auto* layout = dynamic_cast<const SlidingContactLayout*>(piece.layout().get());
+  if (active_set.layout() && EventSystem::meaning_of(*active_set.layout()))
+    return event != nullptr && active_set.empty();
+  const ActiveSet open = system->open_active_set();
+  if ((active_set.layout() == nullptr) != (open.layout() == nullptr)) return false;
+  const auto* layout = dynamic_cast<const SlidingContactLayout*>(active_set.layout().get());
   const auto* at_rest = dynamic_cast<const SlidingContactLayout*>(open.layout().get());
   const auto is_status = [](std::uint8_t closed) { return closed <= 1; };
   const auto points = [](const SlidingContactLayout* on) { return on ? on->points().size() : 0; };
-  return piece.size() + points(at_rest) == open.size() + points(layout) &&
-         std::all_of(piece.begin(), piece.end(), is_status);
+  return active_set.size() + points(at_rest) == open.size() + points(layout) &&
+         std::all_of(active_set.begin(), active_set.end(), is_status);
 }
 
 bool ArchiveModel::owns(const State& state) const {
-  if (state.x.size() == 0 && state.piece == Piece()) return true;
-  if (!owns(state.piece)) return false;
-  const bool of_event = state.piece.layout() && EventSystem::meaning_of(*state.piece.layout());
-  return state.x.size() == (of_event ? event->size(state.piece) : system->size(state.piece));
+  if (state.x.size() == 0 && state.active_set == ActiveSet()) return true;
+  if (!owns(state.active_set)) return false;
+  const bool of_event = state.active_set.layout() && EventSystem::meaning_of(*state.active_set.layout());
+  return state.x.size() == (of_event ? event->size(state.active_set) : system->size(state.active_set));
 }
 
 namespace archive_detail {
@@ -60,7 +61,7 @@ Matrix to_numbers(const Json& json) {
 }  // namespace archive_detail
 
 ArchiveWriter::ArchiveWriter(const ArchiveModel& model) : shared_(std::make_shared<Shared>(Shared{.model = model})) {
-  shared_->layouts.push_back(model.system->open_piece().layout().get());
+  shared_->layouts.push_back(model.system->open_active_set().layout().get());
 }
 
 std::optional<std::size_t> ArchiveWriter::met(std::vector<const void*>& before, const void* object) {
@@ -70,14 +71,14 @@ std::optional<std::size_t> ArchiveWriter::met(std::vector<const void*>& before, 
   return std::nullopt;
 }
 
-Json ArchiveWriter::piece(const Piece& piece) {
-  Json json = Json::array({Json::binary(std::vector<std::uint8_t>(piece.begin(), piece.end()))});
-  if (!piece.layout()) return json;
-  if (const auto place = met(shared_->layouts, piece.layout().get())) {
+Json ArchiveWriter::active_set(const ActiveSet& active_set) {
+  Json json = Json::array({Json::binary(std::vector<std::uint8_t>(active_set.begin(), active_set.end()))});
+  if (!active_set.layout()) return json;
+  if (const auto place = met(shared_->layouts, active_set.layout().get())) {
     json.push_back(*place);
     return json;
   }
-  json.push_back(layout(*piece.layout()));
+  json.push_back(layout(*active_set.layout()));
   return json;
 }
 
@@ -111,7 +112,7 @@ Json ArchiveWriter::branch_point(const std::shared_ptr<const BranchPoint>& point
 
 ArchiveReader::ArchiveReader(const Json& json, const ArchiveModel& model)
     : ArchiveReader(json, std::make_shared<Shared>(Shared{.model = model, .layouts = {}, .branch_points = {}})) {
-  if (model.system) shared_->layouts.push_back(model.system->open_piece().layout());
+  if (model.system) shared_->layouts.push_back(model.system->open_active_set().layout());
 }
 
 std::int64_t ArchiveReader::whole_number(const Json& json, std::int64_t least, std::int64_t most) const {
@@ -122,14 +123,14 @@ std::int64_t ArchiveReader::whole_number(const Json& json, std::int64_t least, s
   return number;
 }
 
-Piece ArchiveReader::piece(const Json& json) {
+ActiveSet ArchiveReader::active_set(const Json& json) {
   require(json.is_array() && (json.size() == 1 || json.size() == 2) && json[0].is_binary());
   const Json::binary_t& closed = json[0].get_binary();
-  Piece piece(closed.size(), 0, json.size() == 2 ? layout(json[1]) : nullptr);
-  for (std::size_t j = 0; j < closed.size(); ++j) piece[j] = closed[j];
-  const std::size_t kinks = model().system ? model().system->open_piece().kinks() : 0;
-  if (kinks == 0 || closed.size() < kinks) return piece;
-  Piece contacts(closed.size() - kinks, 0, piece.layout());
+  ActiveSet active_set(closed.size(), 0, json.size() == 2 ? layout(json[1]) : nullptr);
+  for (std::size_t j = 0; j < closed.size(); ++j) active_set[j] = closed[j];
+  const std::size_t kinks = model().system ? model().system->open_active_set().kinks() : 0;
+  if (kinks == 0 || closed.size() < kinks) return active_set;
+  ActiveSet contacts(closed.size() - kinks, 0, active_set.layout());
   for (std::size_t j = 0; j < contacts.size(); ++j) contacts[j] = closed[j];
   return contacts.with_kinks(std::span(closed).last(kinks));
 }
@@ -153,7 +154,7 @@ std::shared_ptr<const Layout> ArchiveReader::layout(const Json& json) {
   return shared_->layouts.back();
 }
 
-// Its place comes before that of the layout that its own piece may have.
+// Its place comes before that of the layout that its own active set may have.
 std::shared_ptr<const Layout> ArchiveReader::layout_of_event(const Json& json) {
   const std::size_t place = shared_->layouts.size();
   shared_->layouts.emplace_back();

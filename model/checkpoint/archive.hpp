@@ -33,9 +33,10 @@ struct ArchiveModel {
   std::vector<const SlidingContact*> sliding{};  ///< of each stage that has begun; empty where contact is tied to nodes
   const EventSystem* event = nullptr;  ///< of the system's event that is followed, whose states may be met, too
 
-  /// Whether a state has the unknowns of its piece, and that is a piece of the system. A state without anything is.
+  /// Whether a state has the unknowns of its active set, and that is an active set of the system. A state without
+  /// anything is.
   bool owns(const State& state) const;
-  bool owns(const Piece& piece) const;
+  bool owns(const ActiveSet& active_set) const;
 };
 
 namespace archive_detail {
@@ -120,8 +121,8 @@ class ArchiveWriter {
       Json list = Json::array();
       for (auto& entry : value) list.push_back(written(entry));
       return list;
-    } else if constexpr (std::same_as<Plain, Piece>) {
-      return piece(value);
+    } else if constexpr (std::same_as<Plain, ActiveSet>) {
+      return active_set(value);
     } else if constexpr (std::same_as<Plain, std::shared_ptr<const BranchPoint>>) {
       return branch_point(value);
     } else {
@@ -129,7 +130,7 @@ class ArchiveWriter {
     }
   }
 
-  Json piece(const Piece& piece);
+  Json active_set(const ActiveSet& active_set);
   Json layout(const Layout& layout);
   Json branch_point(const std::shared_ptr<const BranchPoint>& point);
 
@@ -225,8 +226,8 @@ class ArchiveReader {
       require(json.is_array());
       value.clear();
       for (const Json& entry : json) read(entry, value.emplace_back());
-    } else if constexpr (std::same_as<T, Piece>) {
-      value = piece(json);
+    } else if constexpr (std::same_as<T, ActiveSet>) {
+      value = active_set(json);
     } else if constexpr (std::same_as<T, std::shared_ptr<const BranchPoint>>) {
       value = branch_point(json);
     } else {
@@ -235,7 +236,7 @@ class ArchiveReader {
   }
 
   std::int64_t whole_number(const Json& json, std::int64_t least, std::int64_t most) const;
-  Piece piece(const Json& json);
+  ActiveSet active_set(const Json& json);
   std::shared_ptr<const BranchPoint> branch_point(const Json& json);
   std::shared_ptr<const Layout> layout(const Json& json);
   std::shared_ptr<const Layout> layout_of_event(const Json& json);

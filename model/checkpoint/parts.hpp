@@ -31,7 +31,7 @@ void parts(Archive& archive, MeshSegment& segment) {
 
 template <typename Archive>
 void parts(Archive& archive, State& state) {
-  archive(state.x, state.lambda, state.piece);
+  archive(state.x, state.lambda, state.active_set);
   if constexpr (Archive::reads) archive.require(archive.model().owns(state));
 }
 
@@ -47,11 +47,11 @@ void parts(Archive& archive, EventBorder& border) {
 
 template <typename Archive>
 void parts(Archive& archive, EventSystem::Meaning& meaning) {
-  archive(meaning.piece, meaning.weights, meaning.multipliers, meaning.guards, meaning.border);
+  archive(meaning.active_set, meaning.weights, meaning.multipliers, meaning.guards, meaning.border);
   const auto is_whole = [&](const Vector& of) { return of.size() == 0 || of.size() == meaning.weights.size(); };
   if constexpr (Archive::reads)
-    archive.require(archive.model().owns(meaning.piece) &&
-                    archive.model().system->size(meaning.piece) == meaning.weights.size() &&
+    archive.require(archive.model().owns(meaning.active_set) &&
+                    archive.model().system->size(meaning.active_set) == meaning.weights.size() &&
                     is_whole(meaning.border.column) && is_whole(meaning.border.row.dx));
 }
 
@@ -83,9 +83,9 @@ void parts(Archive& archive, PathPoint& point) {
 
 template <typename Archive>
 void parts(Archive& archive, BranchPoint::Way& way) {
-  archive(way.piece, way.direction);
+  archive(way.active_set, way.direction);
   if constexpr (Archive::reads)
-    archive.require(archive.model().owns(State{.x = way.direction.dx, .lambda = 0.0, .piece = way.piece}));
+    archive.require(archive.model().owns(State{.x = way.direction.dx, .lambda = 0.0, .active_set = way.active_set}));
 }
 
 template <typename Archive>

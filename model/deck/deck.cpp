@@ -202,13 +202,13 @@ bool drives(const Stage& stage, const std::string& thing) {
 }
 
 // Sliding where contact forces are point forces. Springs, increments and walls without clearance act at nodes.
-bool acts_in(const Spring& spring, Freedom direction) {
+bool acts_in(const Spring& spring, Dof direction) {
   struct Acts {
-    Freedom direction;
+    Dof direction;
     bool by(const Stiffness& stiffness, const std::optional<TableLaw>& law) const {
       if (law) return law->direction == direction;
-      if (direction == Freedom::rotation) return stiffness.rotation > 0.0;
-      return (direction == Freedom::x ? stiffness.x : stiffness.z) > 0.0;
+      if (direction == Dof::rotation) return stiffness.rotation > 0.0;
+      return (direction == Dof::x ? stiffness.x : stiffness.z) > 0.0;
     }
     bool operator()(const GroundSpring& spring) const { return by(spring.stiffness, spring.law); }
     bool operator()(const PointToPointSpring& spring) const { return by(spring.stiffness, spring.law); }

@@ -154,7 +154,7 @@ struct Member {
 struct Support {
   std::string point{};
   Position position{};
-  std::vector<Freedom> directions{};  ///< at least one, each once
+  std::vector<Dof> directions{};  ///< at least one, each once
 
   bool operator==(const Support&) const = default;
 };
@@ -235,7 +235,7 @@ struct Stiffness {
 /// beyond them.
 struct TableLaw {
   using Interpolation = SpringLaw::Interpolation;
-  Freedom direction = Freedom::z;                ///< x, z or rotation
+  Dof direction = Dof::z;                        ///< x, z or rotation
   std::vector<double> displacement{};            ///< strictly increasing, at least 2, with 0
   std::vector<double> force{};                   ///< as many, 0 at 0
   std::optional<Interpolation> interpolation{};  ///< empty: smooth, which was not asked for
@@ -472,7 +472,7 @@ std::string driven_thing(const std::string& kind, std::size_t which);
 bool drives(const Stage& stage, const std::string& thing);
 
 /// Whether a spring, or a foundation, resists displacements or rotations of this kind.
-bool acts_in(const Spring& spring, Freedom direction);
+bool acts_in(const Spring& spring, Dof direction);
 
 /// Where contact is looked for, and in words why: the deck says so, or it is the default.
 struct PointsOfContact {

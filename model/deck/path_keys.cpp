@@ -343,9 +343,9 @@ bool check_owner(Keys& keys, const Monitor& monitor) {
   return true;
 }
 
-Freedom direction_of(Component component) {
-  if (component == Component::force_x) return Freedom::x;
-  return component == Component::force_z ? Freedom::z : Freedom::rotation;
+Dof direction_of(Component component) {
+  if (component == Component::force_x) return Dof::x;
+  return component == Component::force_z ? Dof::z : Dof::rotation;
 }
 
 // A spring has forces in the directions in which it acts, a foundation a pressure.
@@ -358,7 +358,7 @@ void check_spring(Keys& keys, const Deck& deck, const Monitor& monitor) {
                        "spring " + monitor.spring + " is " + (along ? "a foundation" : "no foundation") +
                            ", which has no " + text_of(component_words, monitor.component),
                        along ? "give greatest-pressure" : "give force-x, force-z or moment");
-  const Freedom direction = direction_of(monitor.component);
+  const Dof direction = direction_of(monitor.component);
   if (!along && !acts_in(*spring, direction))
     keys.report("component",
                 "spring " + monitor.spring + " has no stiffness in " + text_of(spring_direction_words, direction),

@@ -106,7 +106,7 @@ void between_keys(Keys& keys, const Deck& deck, PointToPointSpring& spring) {
 void foundation_law_key(Keys& keys, Foundation& foundation) {
   keys.part("law", foundation.law, [&](TableLaw& law) {
     law_keys(keys, law, false);
-    if (keys.reads() && law.direction == Freedom::rotation)
+    if (keys.reads() && law.direction == Dof::rotation)
       keys.report("law", "a foundation resists no rotation", "give direction = \"x\" or \"z\"");
     if (keys.reads() && law.interpolation == SpringLaw::Interpolation::linear)
       keys.report(

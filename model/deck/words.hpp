@@ -50,8 +50,7 @@ inline constexpr Words<Theory, 5> theory_words{{{"euler-bernoulli", Theory::eule
                                                 {"reissner", Theory::reissner},
                                                 {"elastica", Theory::elastica},
                                                 {"truss", Theory::truss}}};
-inline constexpr Words<Freedom, 3> spring_direction_words{
-    {{"x", Freedom::x}, {"z", Freedom::z}, {"rotation", Freedom::rotation}}};
+inline constexpr Words<Dof, 3> spring_direction_words{{{"x", Dof::x}, {"z", Dof::z}, {"rotation", Dof::rotation}}};
 inline constexpr Words<SpringLaw::Interpolation, 2> interpolation_words{
     {{"smooth", SpringLaw::Interpolation::smooth}, {"linear", SpringLaw::Interpolation::linear}}};
 inline constexpr Words<LoadFrame, 2> frame_words{{{"global", LoadFrame::global}, {"member", LoadFrame::member}}};
@@ -59,11 +58,11 @@ inline constexpr Words<QuadraticTerm, 2> along_words{
     {{"fixed", QuadraticTerm::fixed}, {"director", QuadraticTerm::director}}};
 inline constexpr Words<TrussStrain, 3> strain_words{
     {{"green", TrussStrain::green}, {"engineering", TrussStrain::engineering}, {"log", TrussStrain::log}}};
-inline constexpr Words<Freedom, 5> direction_words{{{"x", Freedom::x},
-                                                    {"z", Freedom::z},
-                                                    {"rotation", Freedom::rotation},
-                                                    {"thickness", Freedom::thickness},
-                                                    {"thickness2", Freedom::thickness2}}};
+inline constexpr Words<Dof, 5> direction_words{{{"x", Dof::x},
+                                                {"z", Dof::z},
+                                                {"rotation", Dof::rotation},
+                                                {"thickness", Dof::thickness},
+                                                {"thickness2", Dof::thickness2}}};
 inline constexpr Words<Side, 2> side_words{{{"above", Side::above}, {"below", Side::below}}};
 inline constexpr Words<Keep, 2> keep_words{{{"outside", Keep::outside}, {"inside", Keep::inside}}};
 inline constexpr Words<ContactSurface, 2> contact_surface_words{

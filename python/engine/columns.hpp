@@ -52,8 +52,8 @@ void bind_record(Class& bound) {
           "state",
           [](const Self& self, std::size_t point) {
             const State& state = self.record().points.at(point).state;
-            const auto contacts = static_cast<std::ptrdiff_t>(state.piece.contacts());
-            std::vector<bool> closed(state.piece.begin(), state.piece.begin() + contacts);
+            const auto contacts = static_cast<std::ptrdiff_t>(state.active_set.contacts());
+            std::vector<bool> closed(state.active_set.begin(), state.active_set.begin() + contacts);
             return py::make_tuple(to_frozen_array(state.x), state.lambda, closed);
           },
           py::arg("point"));

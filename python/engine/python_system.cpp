@@ -264,7 +264,7 @@ void PythonSystem::linearize(const State& state, Linearization& out) const {
   if (laid_out && written(lower, out.K)) return;
   out.K = united_pattern(lower, laid_out ? out.K : SparseMatrix(), n);
   written(lower, out.K);
-  out.pattern_of = state.piece;
+  out.pattern_of = state.active_set;
 }
 
 double PythonSystem::energy(const State& state) const {

@@ -26,10 +26,10 @@ using Assignments = std::vector<std::string>;
 // Closed where a node is inside a wall, open elsewhere.
 State with_contacts_where_inside(const UnilateralSystem& system, const State& state) {
   const Vector guards = system.guards(state);
-  Piece piece = state.piece;
-  for (std::size_t j = 0; j < piece.size(); ++j)
-    if (guards[static_cast<Index>(j)] < 0.0) piece[j] = piece[j] != 0 ? 0 : 1;
-  return system.with_piece(state, piece);
+  ActiveSet active_set = state.active_set;
+  for (std::size_t j = 0; j < active_set.size(); ++j)
+    if (guards[static_cast<Index>(j)] < 0.0) active_set[j] = active_set[j] != 0 ? 0 : 1;
+  return system.with_active_set(state, active_set);
 }
 
 // μ W ẋ = −F at fixed λ by steps of one Newton iteration each, no longer than a hundredth; μ doubles while K + μ W has
@@ -41,8 +41,8 @@ State slow_motion(const UnilateralSystem& system, State state) {
   double mu = 1.0;
   for (int step = 0; step < 20000; ++step) {
     state = with_contacts_where_inside(system, state);
-    const Vector weights = system.weights(state.piece);
-    const Index multipliers = system.multiplier_count(state.piece);
+    const Vector weights = system.weights(state.active_set);
+    const Index multipliers = system.multiplier_count(state.active_set);
     for (;; mu *= 2.0) {
       system.linearize(state, at);
       for (Index i = 0; i < weights.size(); ++i) at.K.coeffRef(i, i) += mu * weights[i];
@@ -124,8 +124,9 @@ TEST_P(FallenStructure, IsWhereASlowMotionAmongSpringsEnds) {
     });
     const Vector here = mesh.unknowns(at->state), behind = mesh.unknowns((at + 1)->state) - here;
     const double far = mesh.distance(behind, Vector::Zero(behind.size()));
-    const Piece piece = soft.model().contact() ? soft.model().contact()->open_piece() : Piece();
-    State start{.x = Vector::Zero(soft_mesh.system().size(piece)), .lambda = event.lambda, .piece = piece};
+    const ActiveSet active_set = soft.model().contact() ? soft.model().contact()->open_active_set() : ActiveSet();
+    State start{
+        .x = Vector::Zero(soft_mesh.system().size(active_set)), .lambda = event.lambda, .active_set = active_set};
     start.x.head(here.size()) = here + std::max(1.0, 0.03 / far) * behind;
     const State rest = slow_motion(soft_mesh.system(), start);
 

@@ -73,7 +73,7 @@ const std::string channel =
 State slow_motion(const System& system, State state, double mu, double longest) {
   Linearization at;
   const auto solver = make_ldlt();
-  const Vector weights = system.weights(state.piece);
+  const Vector weights = system.weights(state.active_set);
   for (int step = 0; step < 20000; ++step) {
     system.linearize(state, at);
     for (Index i = 0; i < weights.size(); ++i) at.K.coeffRef(i, i) += mu * weights[i];

@@ -430,9 +430,9 @@ profile = {{ type = "spline", x = [-2.584298738785712, -0.36918553411224453, 1.8
   for (const double touch : touches) EXPECT_NEAR(touch, touches.front(), 1e-7);
 }
 
-// λ turns between a spreading and the first point of the piece behind it, and the arch that gave way does so no more.
-// How a turn of λ changes the count follows from the work of the load along the path; a load that is spread over a mesh
-// that slides does work by that, too, without which the sign was the other one, and the turn was told to change
+// λ turns between a spreading and the first point of the active set behind it, and the arch that gave way does so no
+// more. How a turn of λ changes the count follows from the work of the load along the path; a load that is spread over
+// a mesh that slides does work by that, too, without which the sign was the other one, and the turn was told to change
 // nothing.
 TEST(LiftingParts, ATurnOfTheLoadBehindTheirBeginningChangesTheCount) {
   for (const int elements : {20, 40}) {

@@ -1,6 +1,6 @@
-// Values that are landed on right behind a change of contact, before the first point of the piece behind it: the change
-// stays where it is, the value is met, and what is told there is an equilibrium. Four decks where
-// the first point is a finite stretch away. What is compared with is the same run without the value.
+// Values that are landed on right behind a change of contact, before the first point of the active set behind it: the
+// change stays where it is, the value is met, and what is told there is an equilibrium. Four decks where the first
+// point is a finite stretch away. What is compared with is the same run without the value.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -56,8 +56,8 @@ member.beam = { from = "left", to = "right", theory = "elastica", material = "st
 wall = [{ name = "lower", side = "below", profile = { type = "parabola", apex = [1.257, -0.2224], curvature = 0.0249 } }]
 )toml";
 
-// An arch that has snapped comes to lie along a floor as λ falls, and λ turns there: on the piece that ends no value is
-// ahead.
+// An arch that has snapped comes to lie along a floor as λ falls, and λ turns there: on the active set that ends no
+// value is ahead.
 constexpr const char* spreads_at_a_turn = R"toml(
 title = "an arch above a floor"
 material.m = { E = 2.1e4 }

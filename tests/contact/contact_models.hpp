@@ -17,10 +17,10 @@ inline std::unique_ptr<Structure> contact_beam(MemberDescription member) {
   member.to = builder.add_joint(b);
   member.axis = arc_axis(a, {1.0, 0.2}, b);
   builder.add_member(std::move(member));
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
   builder.fix(builder.shared_rotation(0).value());
-  builder.add_load(builder.freedom(1, Freedom::z), 1.0, LoadKind::proportional);
+  builder.add_load(builder.dof(1, Dof::z), 1.0, LoadKind::proportional);
   return builder.build();
 }
 

@@ -24,8 +24,8 @@ std::unique_ptr<Structure> beam(const test::EssenburgBeams& beams) {
 
 // Every contact closed, forces and displacements of the size of the model.
 State random_state(const MultiplierContact& system, test::Numbers& numbers) {
-  const Piece closed(static_cast<std::size_t>(system.contact_count()), 1);
-  return {.x = 0.2 * numbers.vector(system.size(closed)), .lambda = numbers(), .piece = closed};
+  const ActiveSet closed(static_cast<std::size_t>(system.contact_count()), 1);
+  return {.x = 0.2 * numbers.vector(system.size(closed)), .lambda = numbers(), .active_set = closed};
 }
 
 // Whether a step stays on one cubic of the spline, whose third derivative jumps at its middle knot, x = 1.5.
@@ -98,10 +98,10 @@ TEST(EssenburgContact, TributaryLengthsAreThoseOfAConstantPressure) {
 TEST(EssenburgContact, PressureIsForcePerTributaryLength) {
   const test::ContactModel model = test::EssenburgFoundation{.elements = 2}.model();
   const MultiplierContact& system = model.system();
-  Piece piece = system.open_piece();
-  piece[1] = 1;
-  State state{.x = Vector::Zero(system.size(piece)), .piece = piece};
-  state.x[*system.multiplier_index(piece, 1)] = 2.0;
+  ActiveSet active_set = system.open_active_set();
+  active_set[1] = 1;
+  State state{.x = Vector::Zero(system.size(active_set)), .active_set = active_set};
+  state.x[*system.multiplier_index(active_set, 1)] = 2.0;
   EXPECT_NEAR(*system.contact(state, 1).pressure(), 6.0, 1e-14);
   EXPECT_EQ(*system.contact(state, 0).pressure(), 0.0);
 }

@@ -25,8 +25,8 @@ std::unique_ptr<SlidingStructure> beam() {
   member.to = builder.add_joint({length, 0.0});
   member.axis = straight_axis({0.0, 0.0}, {length, 0.0});
   builder.add_member(std::move(member));
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
   builder.fix(builder.shared_rotation(0).value());
   return builder.build_sliding();
 }

@@ -14,15 +14,15 @@ namespace {
 using test::ContactModel;
 using test::Numbers;
 
-Piece closed_every(Index count, Index stride) {
-  Piece piece(static_cast<std::size_t>(count), 0);
+ActiveSet closed_every(Index count, Index stride) {
+  ActiveSet active_set(static_cast<std::size_t>(count), 0);
   if (stride > 0)
-    for (Index j = 1; j < count; j += stride) piece[static_cast<std::size_t>(j)] = 1;
-  return piece;
+    for (Index j = 1; j < count; j += stride) active_set[static_cast<std::size_t>(j)] = 1;
+  return active_set;
 }
 
-State random_state(const MultiplierContact& system, const Piece& piece, Numbers& numbers) {
-  return {.x = 0.2 * numbers.vector(system.size(piece)), .lambda = numbers(), .piece = piece};
+State random_state(const MultiplierContact& system, const ActiveSet& active_set, Numbers& numbers) {
+  return {.x = 0.2 * numbers.vector(system.size(active_set)), .lambda = numbers(), .active_set = active_set};
 }
 
 // The beam of contact_models.hpp, classic, whose clamp moves with λ.
@@ -37,11 +37,11 @@ std::unique_ptr<Structure> moved_beam() {
                       .axis = arc_axis(a, {1.0, 0.2}, b),
                       .section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2},
                       .elements = 4});
-  builder.fix(builder.freedom(0, Freedom::x), {.constant = 0.02, .proportional = 0.2});
-  builder.fix(builder.freedom(0, Freedom::z), {.proportional = -0.1});
+  builder.fix(builder.dof(0, Dof::x), {.constant = 0.02, .proportional = 0.2});
+  builder.fix(builder.dof(0, Dof::z), {.proportional = -0.1});
   builder.fix(builder.shared_rotation(0).value(), {.constant = 0.1, .proportional = 0.3});
-  builder.fix(builder.freedom(1, Freedom::x), {.proportional = -0.1});  // free in z and to turn
-  builder.add_load(builder.freedom(1, Freedom::z), 1.0, LoadKind::proportional);
+  builder.fix(builder.dof(1, Dof::x), {.proportional = -0.1});  // free in z and to turn
+  builder.add_load(builder.dof(1, Dof::z), 1.0, LoadKind::proportional);
   return builder.build();
 }
 
@@ -54,8 +54,8 @@ TEST(MultiplierContact, DerivativesAreConsistentWhicheverContactsAreClosed) {
     const ContactModel model(test::contact_beam(), test::all_walls(on_axis), 0.1);
     for (const Index stride : {0, 1, 2, 3, 7}) {
       SCOPED_TRACE(stride);
-      const Piece piece = closed_every(model.system().contact_count(), stride);
-      EXPECT_LE(check_derivatives(model.system(), random_state(model.system(), piece, numbers)).worst(), 1e-9);
+      const ActiveSet active_set = closed_every(model.system().contact_count(), stride);
+      EXPECT_LE(check_derivatives(model.system(), random_state(model.system(), active_set, numbers)).worst(), 1e-9);
     }
   }
 }
@@ -68,8 +68,8 @@ TEST(MultiplierContact, DerivativesAreConsistentWithEveryLaw) {
       const ContactModel model(test::contact_beam(), test::all_walls(false), 0.1,
                                {.method = method, .stiffness = stiffness});
       for (const Index stride : {1, 3}) {
-        const Piece piece = closed_every(model.system().contact_count(), stride);
-        EXPECT_LE(check_derivatives(model.system(), random_state(model.system(), piece, numbers)).worst(), 1e-9);
+        const ActiveSet active_set = closed_every(model.system().contact_count(), stride);
+        EXPECT_LE(check_derivatives(model.system(), random_state(model.system(), active_set, numbers)).worst(), 1e-9);
       }
     }
 }
@@ -91,7 +91,7 @@ TEST(MultiplierContact, IsSolvedForWithEveryLawAndStiffness) {
           Linearization now;
           system.linearize(state, now);
           BorderedSolver solver;
-          ASSERT_EQ(solver.factorize(now, system.multiplier_count(state.piece)), FactorStatus::ok);
+          ASSERT_EQ(solver.factorize(now, system.multiplier_count(state.active_set)), FactorStatus::ok);
           const Matrix right = numbers.matrix(state.x.size(), 2);
           Matrix X = right;
           ASSERT_TRUE(solver.solve_inner(X));
@@ -111,7 +111,7 @@ TEST(MultiplierContact, TellsTheForcesThatActInTheEquations) {
   Vector with(state.x.size()), without(state.x.size());
   system.residual(state, with);
   const auto closed = system.closed_contacts(state);
-  ASSERT_EQ(static_cast<Index>(closed.size()), state.piece.closed_count());
+  ASSERT_EQ(static_cast<Index>(closed.size()), state.active_set.closed_count());
   std::size_t k = 0;
   for (Index j = 0; j < system.contact_count(); ++j) {
     const ContactPoint contact = system.contact(state, j);
@@ -119,7 +119,7 @@ TEST(MultiplierContact, TellsTheForcesThatActInTheEquations) {
     EXPECT_EQ(contact.label.wall, "wall");
     EXPECT_EQ(contact.place, point.position(state));
     EXPECT_EQ(contact.force, system.force(state, j));
-    const auto multiplier = system.multiplier_index(state.piece, j);
+    const auto multiplier = system.multiplier_index(state.active_set, j);
     if (!multiplier) {
       EXPECT_EQ(contact.force_vector, Vec2(0.0, 0.0));
       continue;
@@ -142,9 +142,9 @@ TEST(MultiplierContact, DerivativesAreConsistentWhereSupportsMove) {
     const ContactModel model(moved_beam(), test::all_walls(false), 0.1, {.method = method, .stiffness = 10.0});
     const MultiplierContact& system = model.system();
     for (const Index stride : {0, 1, 3}) {
-      Piece piece = closed_every(system.contact_count(), stride);
-      if (stride > 0) piece[0] = 1;
-      const State state = random_state(system, piece, numbers);
+      ActiveSet active_set = closed_every(system.contact_count(), stride);
+      if (stride > 0) active_set[0] = 1;
+      const State state = random_state(system, active_set, numbers);
       EXPECT_LE(check_derivatives(system, state).worst(), 1e-9);
       const Direction direction{.dx = numbers.vector(state.x.size()), .dlambda = numbers()};
       const Vector rates = system.guards_along(state, direction).rates;
@@ -168,9 +168,9 @@ TEST(MultiplierContact, KeepsItsDigitsOnALongChain) {
                       .axis = straight_axis({0.0, 0.0}, {1.0, 0.0}),
                       .section = test::section_of(12.0, 1.0),
                       .elements = elements});
-  for (const Index joint : {0, 1}) builder.fix(builder.freedom(joint, Freedom::z));
-  builder.fix(builder.freedom(0, Freedom::x));
-  const Index loaded = builder.freedom(builder.mesh(0).nodes[elements / 4], Freedom::z);
+  for (const Index joint : {0, 1}) builder.fix(builder.dof(joint, Dof::z));
+  builder.fix(builder.dof(0, Dof::x));
+  const Index loaded = builder.dof(builder.mesh(0).nodes[elements / 4], Dof::z);
   builder.add_load(loaded, -1.0, LoadKind::proportional);
   const auto structure = builder.build();
   const double stiffness = 30.0;
@@ -179,8 +179,8 @@ TEST(MultiplierContact, KeepsItsDigitsOnALongChain) {
     middle.emplace_back(std::make_unique<MemberPoint>(*structure, structure->members()[0], elements / 2, 0.0),
                         obstacle(flat_profile(0.0), Side::below), ContactLabel{.tributary = 1.0});
     const MultiplierContact contact(*structure, std::move(middle), {}, {.method = method, .stiffness = stiffness});
-    const Piece closed(1, 1);
-    const State rest{.x = Vector::Zero(contact.size(closed)), .piece = closed};
+    const ActiveSet closed(1, 1);
+    const State rest{.x = Vector::Zero(contact.size(closed)), .active_set = closed};
     Linearization now;
     contact.linearize(rest, now);
     BorderedSolver solver;
@@ -201,19 +201,19 @@ TEST(MultiplierContact, APenaltySpringHasItsTributaryLength) {
                            {.method = ContactLaw::Method::penalty, .stiffness = 50.0});
   const MultiplierContact& system = model.system();
   Numbers numbers(68);
-  const Piece piece = closed_every(system.contact_count(), 1);
-  State state = random_state(system, piece, numbers);
+  const ActiveSet active_set = closed_every(system.contact_count(), 1);
+  State state = random_state(system, active_set, numbers);
   Vector F(state.x.size());
   for (Index j = 1; j < system.contact_count(); ++j) {
     // Elements of the arc are of length L/4; the last node has half of one.
     const double length = system.candidate(j).label().tributary;
     EXPECT_NEAR(length, (j + 1 < system.contact_count() ? 2.0 : 1.0) * system.candidate(1).label().tributary / 2.0,
                 1e-12);
-    const Index k = *system.multiplier_index(piece, j);
+    const Index k = *system.multiplier_index(active_set, j);
     state.x[k] = -50.0 * length * system.candidate(j).gap(state);
     system.residual(state, F);
     EXPECT_NEAR(F[k], 0.0, 1e-13);
-    EXPECT_DOUBLE_EQ(system.compliance(system.open_piece(), j),
+    EXPECT_DOUBLE_EQ(system.compliance(system.open_active_set(), j),
                      system.scales().force / system.scales().length / (50.0 * length));
   }
 }
@@ -225,13 +225,13 @@ TEST(MultiplierContact, TheEnergyOfPenaltySpringsIsTheirWork) {
   const MultiplierContact& system = model.system();
   const Index n = system.size({});
   Numbers numbers(69);
-  const Piece piece = closed_every(system.contact_count(), 2);
-  const State at = random_state(system, piece, numbers);
+  const ActiveSet active_set = closed_every(system.contact_count(), 2);
+  const State at = random_state(system, active_set, numbers);
   const auto pressed = [&](double s) {
     State state = at;
     state.x[2] += s;
     for (Index j = 0; j < system.contact_count(); ++j)
-      if (const auto k = system.multiplier_index(piece, j))
+      if (const auto k = system.multiplier_index(active_set, j))
         state.x[*k] = -50.0 * system.candidate(j).label().tributary * system.candidate(j).gap(state);
     return state;
   };
@@ -241,7 +241,7 @@ TEST(MultiplierContact, TheEnergyOfPenaltySpringsIsTheirWork) {
   EXPECT_NEAR((system.energy(pressed(s)) - system.energy(pressed(-s))) / (2.0 * s), F[2], 1e-7 * F.head(n).norm());
 }
 
-TEST(MultiplierContact, OneLinearizationServesChangingPieces) {
+TEST(MultiplierContact, OneLinearizationServesChangingActiveSets) {
   Numbers numbers(61);
   const ContactModel model(test::contact_beam(), test::all_walls(false), 0.1);
   Linearization reused;
@@ -261,11 +261,11 @@ TEST(MultiplierContact, AClosedContactPushesAgainstItsGapsGradient) {
                            {{.name = "floor", .side = Side::below, .profile = flat_profile(-1.0)}}, 0.1);
   const MultiplierContact& system = model.system();
   Numbers numbers(62);
-  Piece piece(static_cast<std::size_t>(system.contact_count()), 0);
-  piece[2] = 1;
-  State state = random_state(system, piece, numbers);
-  const Index k = *system.multiplier_index(piece, 2);
-  EXPECT_EQ(k, system.size(piece) - 1);
+  ActiveSet active_set(static_cast<std::size_t>(system.contact_count()), 0);
+  active_set[2] = 1;
+  State state = random_state(system, active_set, numbers);
+  const Index k = *system.multiplier_index(active_set, 2);
+  EXPECT_EQ(k, system.size(active_set) - 1);
   state.x[k] = 5.0;
   EXPECT_EQ(system.force(state, 2), 5.0);
   EXPECT_EQ(system.force(state, 0), 0.0);
@@ -287,11 +287,11 @@ TEST(MultiplierContact, GuardsAreGapsAndForcesInTheirScales) {
   EXPECT_EQ(system.scales().force, 3.0);
   EXPECT_EQ(system.multiplier_scale(), 3.0);
   Numbers numbers(63);
-  const Piece piece = closed_every(system.contact_count(), 4);
-  const State state = random_state(system, piece, numbers);
+  const ActiveSet active_set = closed_every(system.contact_count(), 4);
+  const State state = random_state(system, active_set, numbers);
   const Vector guards = system.guards(state);
   for (Index j = 0; j < guards.size(); ++j)
-    EXPECT_DOUBLE_EQ(guards[j], piece[static_cast<std::size_t>(j)]
+    EXPECT_DOUBLE_EQ(guards[j], active_set[static_cast<std::size_t>(j)]
                                     ? system.force(state, j) / 3.0
                                     : system.candidate(j).gap(state) / system.scales().length);
 }
@@ -311,10 +311,10 @@ TEST(MultiplierContact, TransferKeepsThePointAndTheForcesThatStay) {
   const ContactModel model(test::contact_beam(), test::all_walls(false), 0.1);
   const MultiplierContact& system = model.system();
   Numbers numbers(65);
-  const Piece from = closed_every(system.contact_count(), 2), to = closed_every(system.contact_count(), 3);
+  const ActiveSet from = closed_every(system.contact_count(), 2), to = closed_every(system.contact_count(), 3);
   const State state = random_state(system, from, numbers);
-  const State moved = system.with_piece(state, to);
-  EXPECT_EQ(moved.piece, to);
+  const State moved = system.with_active_set(state, to);
+  EXPECT_EQ(moved.active_set, to);
   EXPECT_EQ(moved.lambda, state.lambda);
   EXPECT_EQ(moved.x.size(), system.size(to));
   const Index n = system.size({});
@@ -323,14 +323,14 @@ TEST(MultiplierContact, TransferKeepsThePointAndTheForcesThatStay) {
     const bool stays = from[static_cast<std::size_t>(j)] && to[static_cast<std::size_t>(j)];
     EXPECT_EQ(system.force(moved, j), stays ? system.force(state, j) : 0.0);
   }
-  EXPECT_EQ(system.with_piece(state, from).x, state.x);
+  EXPECT_EQ(system.with_active_set(state, from).x, state.x);
 }
 
 TEST(MultiplierContact, MultipliersHaveNoWeightInTheMetric) {
   const ContactModel model(test::contact_beam(), test::all_walls(false), 0.1);
-  const Piece piece = closed_every(model.system().contact_count(), 5);
-  const Vector weights = model.system().weights(piece);
-  const Index m = model.system().multiplier_count(piece);
+  const ActiveSet active_set = closed_every(model.system().contact_count(), 5);
+  const Vector weights = model.system().weights(active_set);
+  const Index m = model.system().multiplier_count(active_set);
   EXPECT_GT(m, 0);
   EXPECT_EQ(weights.tail(m).norm(), 0.0);
   EXPECT_EQ(Vector(weights.head(weights.size() - m)), model.structure().weights({}));
@@ -347,22 +347,22 @@ TEST(MultiplierContact, AContactIsWeakWhereGapAndForceVanish) {
                         .to = i + 1,
                         .axis = straight_axis({double(i), 0.0}, {double(i + 1), 0.0}),
                         .section = {.E = 1.0, .A = 1.0, .I = 1.0}});
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.add_load(builder.freedom(1, Freedom::z), -1.0, LoadKind::proportional);
+  builder.fix(builder.dof(0, Dof::x));
+  builder.add_load(builder.dof(1, Dof::z), -1.0, LoadKind::proportional);
   const ContactModel model(builder.build(), {floor}, 0.1);
   const MultiplierContact& system = model.system();
-  const Piece open(static_cast<std::size_t>(system.contact_count()), 0);
-  State state{.x = Vector::Zero(system.size(open)), .lambda = 0.0, .piece = open};
-  const auto weak = [&](const State& at) { return degenerate_contacts(system.guards(at), at.piece, 1e-12); };
+  const ActiveSet open(static_cast<std::size_t>(system.contact_count()), 0);
+  State state{.x = Vector::Zero(system.size(open)), .lambda = 0.0, .active_set = open};
+  const auto weak = [&](const State& at) { return degenerate_contacts(system.guards(at), at.active_set, 1e-12); };
   EXPECT_EQ(static_cast<Index>(weak(state).size()), system.contact_count());
 
   // Lifted at one node, pressed at another: neither is weak.
-  Piece piece = open;
-  piece[1] = 1;
-  state = system.with_piece(state, piece);
+  ActiveSet active_set = open;
+  active_set[1] = 1;
+  state = system.with_active_set(state, active_set);
   state.x[system.candidate(0).point().unknowns().back()] += 0.1;  // its z
   EXPECT_EQ(weak(state).front(), 1);
-  state.x[*system.multiplier_index(piece, 1)] = 1.0;
+  state.x[*system.multiplier_index(active_set, 1)] = 1.0;
   for (const Index j : weak(state)) EXPECT_GT(j, 1);
 }
 
@@ -370,13 +370,13 @@ TEST(MultiplierContact, UnitForceIsWhatAUnitOfTheForceGuardDoesToTheResidual) {
   const ContactModel model(test::contact_beam(), test::all_walls(false), 0.3);
   const MultiplierContact& system = model.system();
   Numbers numbers(66);
-  const Piece open(static_cast<std::size_t>(system.contact_count()), 0);
+  const ActiveSet open(static_cast<std::size_t>(system.contact_count()), 0);
   const State state = random_state(system, open, numbers);
   for (const Index j : {Index{0}, Index{5}, system.contact_count() - 1}) {
-    Piece piece = open;
-    piece[static_cast<std::size_t>(j)] = 1;
-    State closed = system.with_piece(state, piece);
-    closed.x[*system.multiplier_index(piece, j)] = system.multiplier_scale();
+    ActiveSet active_set = open;
+    active_set[static_cast<std::size_t>(j)] = 1;
+    State closed = system.with_active_set(state, active_set);
+    closed.x[*system.multiplier_index(active_set, j)] = system.multiplier_scale();
     Vector F(closed.x.size()), F_open(state.x.size());
     system.residual(closed, F);
     system.residual(state, F_open);
@@ -390,8 +390,8 @@ TEST(MultiplierContact, AClosedContactBeyondItsWallIsAnObstruction) {
       test::contact_beam(),
       {{.name = "short", .side = Side::above, .profile = spline_profile({-1.0, 0.0, 1.2}, {1, 1, 1})}}, 0.1);
   const MultiplierContact& system = model.system();
-  const Piece open(static_cast<std::size_t>(system.contact_count()), 0);
-  const State rest{.x = Vector::Zero(system.size(open)), .lambda = 0.0, .piece = open};
+  const ActiveSet open(static_cast<std::size_t>(system.contact_count()), 0);
+  const State rest{.x = Vector::Zero(system.size(open)), .lambda = 0.0, .active_set = open};
   EXPECT_FALSE(system.invalid_place(rest).has_value()) << "open contacts may face nothing";
   // The last node stands beside the wall: its guard is large and does not move.
   const Index last = system.contact_count() - 1;
@@ -399,9 +399,10 @@ TEST(MultiplierContact, AClosedContactBeyondItsWallIsAnObstruction) {
   EXPECT_GE(system.guards(rest)[last], 0.5);
   EXPECT_EQ(system.guard_gradient(rest, last).dx.norm(), 0.0);
   for (Index j = 0; j < system.contact_count(); ++j) {
-    Piece piece = open;
-    piece[static_cast<std::size_t>(j)] = 1;
-    EXPECT_EQ(system.invalid_place(system.with_piece(rest, piece)).has_value(), !system.candidate(j).faces_wall(rest));
+    ActiveSet active_set = open;
+    active_set[static_cast<std::size_t>(j)] = 1;
+    EXPECT_EQ(system.invalid_place(system.with_active_set(rest, active_set)).has_value(),
+              !system.candidate(j).faces_wall(rest));
   }
 }
 

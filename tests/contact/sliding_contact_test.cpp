@@ -34,20 +34,20 @@ Vector of(const std::vector<double>& values) {
   return Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size()));
 }
 
-Piece piece_of(const SlidingModel& model, const Layouts& on) {
+ActiveSet active_set_of(const SlidingModel& model, const Layouts& on) {
   const auto layout = std::make_shared<SlidingContactLayout>(
       model.structure(), model.structure().mesh(ElementsPerSegment{on.elements}), on.points, of(on.s));
-  const std::size_t tied = model.system().open_piece().size();
-  Piece piece(on.points.size() + tied, 0, layout);
-  for (std::size_t k = 0; k < on.closed.size(); ++k) piece[k] = on.closed[k];
-  return piece;
+  const std::size_t tied = model.system().open_active_set().size();
+  ActiveSet active_set(on.points.size() + tied, 0, layout);
+  for (std::size_t k = 0; k < on.closed.size(); ++k) active_set[k] = on.closed[k];
+  return active_set;
 }
 
 // Off its rest by a twentieth of the shortest element, loaded, with forces and moments.
-State random_state(const SlidingModel& model, const Piece& piece, Numbers& numbers) {
+State random_state(const SlidingModel& model, const ActiveSet& active_set, Numbers& numbers) {
   const SlidingContact& system = model.system();
-  State state{.x = Vector::Zero(system.size(piece)), .lambda = 1.0 + numbers(), .piece = piece};
-  const auto& layout = static_cast<const SlidingContactLayout&>(*piece.layout());
+  State state{.x = Vector::Zero(system.size(active_set)), .lambda = 1.0 + numbers(), .active_set = active_set};
+  const auto& layout = static_cast<const SlidingContactLayout&>(*active_set.layout());
   const SlidingMesh& mesh = layout.mesh();
   const Index n = mesh.unknowns(), m = mesh.breakpoints();
   Vector s(m);
@@ -57,7 +57,7 @@ State random_state(const SlidingModel& model, const Piece& piece, Numbers& numbe
   for (Index node = 1; node < mesh.nodes(0); ++node)
     shortest = std::min(shortest, mesh.coordinate(0, node, s) - mesh.coordinate(0, node - 1, s));
   state.x.head(n) = model.structure().rest(mesh, s) + 0.05 * shortest * numbers.vector(n);
-  for (Index j = n; j < n + system.multiplier_count(piece); ++j) state.x[j] = 1.0 + numbers();
+  for (Index j = n; j < n + system.multiplier_count(active_set); ++j) state.x[j] = 1.0 + numbers();
   state.x.tail(m) = s;
   return state;
 }
@@ -102,11 +102,11 @@ StructureBuilder wavy_beam(bool reversed, Theory theory = Theory::euler_bernoull
                       .order = 4,
                       .section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2},
                       .elements = 7});
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
   builder.fix(builder.shared_rotation(0).value());
-  builder.add_load(builder.freedom(1, Freedom::x), -2.0, LoadKind::proportional);
-  builder.add_load(builder.freedom(1, Freedom::z), 1.0, LoadKind::constant);
+  builder.add_load(builder.dof(1, Dof::x), -2.0, LoadKind::proportional);
+  builder.add_load(builder.dof(1, Dof::z), 1.0, LoadKind::constant);
   builder.add_load(*builder.shared_rotation(1), 0.3, LoadKind::proportional);
   return builder;
 }
@@ -129,7 +129,7 @@ TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWallsSlow) {
         const SlidingModel model(wavy_beam(reversed), two_of(walls, kind), 0.1);
         for (const Layouts& on : layouts()) {
           SCOPED_TRACE(on.name + ", wall " + std::to_string(kind) + (reversed ? ", reversed" : ""));
-          const State state = random_state(model, piece_of(model, on), numbers);
+          const State state = random_state(model, active_set_of(model, on), numbers);
           const auto report = check_derivatives(model.system(), state, 1e-6);
           EXPECT_LE(report.K, 1e-9);
           EXPECT_LE(report.F_lambda, 1e-8);
@@ -150,12 +150,12 @@ TEST(SlidingContact, DerivativesAreConsistentAtAClampOnAWall) {
     auto [builder, clamped, free] = test::clamped_member(
         {0.0, 0.0}, {2.0, 0.0}, reversed,
         {.name = "beam", .section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2}, .elements = 7});
-    builder.add_load(builder.freedom(free, Freedom::z), -1.0, LoadKind::proportional);
+    builder.add_load(builder.dof(free, Dof::z), -1.0, LoadKind::proportional);
     builder.add_distributed_load(0, {0.1, -0.3}, LoadKind::proportional);
     const SlidingModel model(
         builder, {{.name = "wall", .side = Side::below, .profile = circle_profile({0.0, -1.1}, 1.0, Side::below)}},
         0.1);
-    const State state = random_state(model, model.system().open_piece(), numbers);
+    const State state = random_state(model, model.system().open_active_set(), numbers);
     const Vector bounds = model.system().guards(state).tail(3);
     EXPECT_TRUE((bounds.array() != 1.0).any());  // as they are where nothing touches
     EXPECT_LE(check_derivatives(model.system(), state, 1e-6).guard_gradient, 1e-6);
@@ -168,8 +168,8 @@ namespace {
 StructureBuilder beam_with_forces(bool reversed, Theory theory) {
   StructureBuilder builder = wavy_beam(reversed, theory);
   const auto add = [&](std::size_t node, double x, double z, LoadKind kind) {
-    builder.add_load(builder.freedom(builder.mesh(0).nodes[node], Freedom::x), x, kind);
-    builder.add_load(builder.freedom(builder.mesh(0).nodes[node], Freedom::z), z, kind);
+    builder.add_load(builder.dof(builder.mesh(0).nodes[node], Dof::x), x, kind);
+    builder.add_load(builder.dof(builder.mesh(0).nodes[node], Dof::z), z, kind);
   };
   add(3, 0.5, -2.0, LoadKind::proportional);
   add(3, 0.0, 0.7, LoadKind::constant);
@@ -201,7 +201,7 @@ TEST(SlidingContact, DerivativesAreConsistentWhereForcesActInside) {
       const SlidingModel model(beam_with_forces(reversed, theory), walls, 0.1);
       for (const Layouts& on : layouts_with_forces()) {
         SCOPED_TRACE(on.name + (reversed ? ", reversed" : ""));
-        const State state = random_state(model, piece_of(model, on), numbers);
+        const State state = random_state(model, active_set_of(model, on), numbers);
         const auto report = check_derivatives(model.system(), state, 1e-6);
         EXPECT_LE(report.K, 1e-9);
         EXPECT_LE(report.F_lambda, 1e-8);
@@ -236,7 +236,8 @@ TEST(SlidingContact, DerivativesAreConsistentWhereAPartHandsAForceOn) {
   for (const std::size_t kind : {2u, 3u})  // a parabola, a circle
     for (const Theory theory : {Theory::euler_bernoulli, Theory::elastica}) {
       const SlidingModel model(beam_with_forces(false, theory), two_of(test::all_walls(false), kind), 0.1);
-      const auto report = check_derivatives(model.system(), random_state(model, piece_of(model, on), numbers), 1e-6);
+      const auto report =
+          check_derivatives(model.system(), random_state(model, active_set_of(model, on), numbers), 1e-6);
       EXPECT_LE(report.K, 1e-9);
       EXPECT_LE(report.F_lambda, 1e-7);
       EXPECT_EQ(report.consistency, 0.0);
@@ -260,7 +261,7 @@ class CantileverWithForceInside {
                                                                std::vector<Point>{}, Vector());
     const State rest{.x = structure.rest(layout->mesh(), Vector()),
                      .lambda = 0.0,
-                     .piece = Piece(model_.system().open_piece().size(), 0, layout)};
+                     .active_set = ActiveSet(model_.system().open_active_set().size(), 0, layout)};
     return test::solved_at(model_.system(), rest, 1.0, 20);
   }
 
@@ -277,11 +278,11 @@ class CantileverWithForceInside {
                         .order = order,
                         .section = {.E = 1.0, .A = EA, .I = 1.0, .height = 0.01},
                         .elements = 3});
-    for (const Freedom which : {Freedom::x, Freedom::z}) {
-      const int i = which == Freedom::x ? 0 : 1;
-      builder.fix(builder.freedom(0, which));
-      builder.add_load(builder.freedom(builder.mesh(0).nodes[1], which), inside[i], LoadKind::proportional);
-      builder.add_load(builder.freedom(1, which), tip[i], LoadKind::proportional);
+    for (const Dof which : {Dof::x, Dof::z}) {
+      const int i = which == Dof::x ? 0 : 1;
+      builder.fix(builder.dof(0, which));
+      builder.add_load(builder.dof(builder.mesh(0).nodes[1], which), inside[i], LoadKind::proportional);
+      builder.add_load(builder.dof(1, which), tip[i], LoadKind::proportional);
     }
     builder.fix(builder.shared_rotation(0).value());
     return builder;
@@ -341,7 +342,7 @@ namespace {
 void expect_rates(const SlidingContact& system, const State& state) {
   constexpr double step = 1e-3;
   EXPECT_LE(check_derivatives(system, state, step).F_lambda, 1e-9);
-  for (Index j = 0; j < system.guard_count(state.piece); ++j) {
+  for (Index j = 0; j < system.guard_count(state.active_set); ++j) {
     const auto guard = [&](double by) {
       State moved = state;
       moved.lambda += by;
@@ -365,7 +366,7 @@ TEST(SlidingContact, KnowsTheRatesOfHeatSlow) {
     const SlidingModel model(builder, two_of(test::all_walls(false), 2), 0.1);
     for (const Layouts& on : layouts()) {
       SCOPED_TRACE(on.name);
-      const State state = random_state(model, piece_of(model, on), numbers);
+      const State state = random_state(model, active_set_of(model, on), numbers);
       const auto report = check_derivatives(model.system(), state, 1e-6);
       EXPECT_LE(report.K, 1e-9);
       EXPECT_LE(report.energy, 1e-7);
@@ -384,7 +385,7 @@ TEST(SlidingContact, DerivativesAreConsistentOnAFoundationSlow) {
     const SlidingModel model(builder, two_of(test::all_walls(false), 2), 0.1);
     for (const Layouts& on : layouts()) {
       SCOPED_TRACE(on.name);
-      const State state = random_state(model, piece_of(model, on), numbers);
+      const State state = random_state(model, active_set_of(model, on), numbers);
       const auto report = check_derivatives(model.system(), state, 1e-6);
       EXPECT_LE(report.K, 1e-9);
       EXPECT_LE(report.F_lambda, 1e-8);
@@ -406,7 +407,7 @@ TEST(SlidingContact, KnowsTheRatesOfWallsThatMoveSlow) {
         const SlidingModel model(wavy_beam(false, theory), two_of(walls, kind), 0.1);
         for (const Layouts& on : layouts()) {
           SCOPED_TRACE(on.name + ", wall " + std::to_string(kind));
-          const State state = random_state(model, piece_of(model, on), numbers);
+          const State state = random_state(model, active_set_of(model, on), numbers);
           EXPECT_LE(check_derivatives(model.system(), state, 1e-6).K, 1e-9);
           expect_rates(model.system(), state);
         }
@@ -435,12 +436,12 @@ TEST(SlidingContact, DerivativesAreConsistentBesideAPointOfASpline) {
                        {{.obstacle = wall, .behind = Span::pressed}, {.obstacle = wall}},
                        {0.3, 0.65},
                        {1, 1}};
-      const State state = random_state(model, piece_of(model, on), numbers);
-      const auto& bounds = sliding_layout(state.piece).bounds();
+      const State state = random_state(model, active_set_of(model, on), numbers);
+      const auto& bounds = sliding_layout(state.active_set).bounds();
       std::size_t near = 0;
       for (std::size_t i = 0; i < bounds.size(); ++i)
         if (dynamic_cast<const sliding::PullingJumpBound*>(bounds[i].get()) != nullptr)
-          near += model.system().guard(state, static_cast<Index>(state.piece.size() + i)) < 0.5 ? 1 : 0;
+          near += model.system().guard(state, static_cast<Index>(state.active_set.size() + i)) < 0.5 ? 1 : 0;
       EXPECT_GE(near, 1U);
       EXPECT_LE(check_derivatives(model.system(), state, 1e-6).guard_gradient, 1e-6);
       expect_rates(model.system(), state);
@@ -455,17 +456,17 @@ TEST(SlidingContact, KnowsTheRatesOfFreeEndsThatSupportsMove) {
     const auto walls = test::all_walls(on_axis);
     for (std::size_t kind = 0; kind < walls.size() / 2; ++kind) {
       StructureBuilder builder = wavy_beam(false);
-      builder.fix(builder.freedom(1, Freedom::x), {.proportional = -0.1});
+      builder.fix(builder.dof(1, Dof::x), {.proportional = -0.1});
       builder.fix(*builder.shared_rotation(1), {.constant = 0.1, .proportional = 0.2});
       const SlidingModel model(builder, two_of(walls, kind), 0.1);
-      const std::size_t ends = model.system().open_piece().size();
+      const std::size_t ends = model.system().open_active_set().size();
       ASSERT_EQ(ends, 2U);  // one a wall
       for (std::size_t closed = 0; closed < ends; ++closed) {
         SCOPED_TRACE("wall " + std::to_string(kind) + ", end " + std::to_string(closed));
         const Layouts& on = layouts()[2];
-        Piece piece = piece_of(model, on);
-        piece[on.points.size() + closed] = 1;
-        const State state = random_state(model, piece, numbers);
+        ActiveSet active_set = active_set_of(model, on);
+        active_set[on.points.size() + closed] = 1;
+        const State state = random_state(model, active_set, numbers);
         EXPECT_LE(check_derivatives(model.system(), state, 1e-6).K, 1e-9);
         expect_rates(model.system(), state);
       }
@@ -478,7 +479,7 @@ TEST(SlidingContact, OneLinearizationServesChangingLayouts) {
   const SlidingModel model(wavy_beam(false), two_of(test::all_walls(false), 2), 0.1);
   Linearization reused;
   for (const std::size_t i : {0U, 2U, 2U, 3U, 4U, 8U, 7U, 0U}) {
-    const State state = random_state(model, piece_of(model, layouts()[i]), numbers);
+    const State state = random_state(model, active_set_of(model, layouts()[i]), numbers);
     model.system().linearize(state, reused);
     Linearization fresh;
     model.system().linearize(state, fresh);
@@ -494,11 +495,11 @@ TEST(SlidingContact, UnitForcesAreTheResponseToAForceOfOne) {
   Numbers numbers(72);
   const SlidingModel model(wavy_beam(false), two_of(test::all_walls(false), 3), 0.1);
   const SlidingContact& system = model.system();
-  const State open = random_state(model, piece_of(model, layouts()[4]), numbers);
-  for (const Index j : {Index{0}, open.piece.size() > 2 ? Index{2} : Index{0}}) {
-    Piece closed = open.piece;
+  const State open = random_state(model, active_set_of(model, layouts()[4]), numbers);
+  for (const Index j : {Index{0}, open.active_set.size() > 2 ? Index{2} : Index{0}}) {
+    ActiveSet closed = open.active_set;
     closed[static_cast<std::size_t>(j)] = 1;
-    State pushed = system.with_piece(open, closed);
+    State pushed = system.with_active_set(open, closed);
     pushed.x[*system.multiplier_index(closed, j)] = system.multiplier_scale();
     Vector with(pushed.x.size());
     system.residual(pushed, with);
@@ -516,12 +517,12 @@ TEST(SlidingContact, TransferKeepsThePointAndTheForcesThatStay) {
   const SlidingModel model(wavy_beam(false), two_of(test::all_walls(false), 0), 0.1);
   const SlidingContact& system = model.system();
   Layouts on = layouts()[3];
-  const Piece from = piece_of(model, on);
+  const ActiveSet from = active_set_of(model, on);
   const State state = random_state(model, from, numbers);
-  Piece to = from;
+  ActiveSet to = from;
   to[0] = 0;
   to[2] = 1;  // the free end
-  const State moved = system.with_piece(state, to);
+  const State moved = system.with_active_set(state, to);
   EXPECT_EQ(moved.x.size(), system.size(to));
   EXPECT_EQ(system.force(moved, 0), 0.0);
   EXPECT_EQ(system.force(moved, 1), system.force(state, 1));
@@ -529,16 +530,16 @@ TEST(SlidingContact, TransferKeepsThePointAndTheForcesThatStay) {
   const Index n = mesh_of(state).unknowns();
   EXPECT_EQ(Vector(moved.x.head(n)), Vector(state.x.head(n)));
   EXPECT_EQ(Vector(moved.x.tail(4)), Vector(state.x.tail(4)));
-  EXPECT_EQ(system.with_piece(state, from).x, state.x);
+  EXPECT_EQ(system.with_active_set(state, from).x, state.x);
 }
 
 TEST(SlidingContact, GuardsAreGapsAndForcesInTheirScales) {
   Numbers numbers(74);
   const SlidingModel model = SlidingChannel{}.model();
   const SlidingContact& system = model.system();
-  const State state = random_state(model, piece_of(model, layouts()[4]), numbers);
+  const State state = random_state(model, active_set_of(model, layouts()[4]), numbers);
   const Vector guards = system.guards(state);
-  ASSERT_EQ(guards.size(), system.guard_count(state.piece));
+  ASSERT_EQ(guards.size(), system.guard_count(state.active_set));
   // Point 0 is open below the column, point 1 closed above it: gaps of faces 0.05 off the axis to walls at ±0.2.
   const AxisPlace at = mesh_of(state).node(0, mesh_of(state).breakpoint(0).second, mesh_state_of(state));
   EXPECT_NEAR(guards[0], (at.position.y() - 0.05 * std::cos(at.angle) + 0.2) / system.scales().length, 1e-14);
@@ -551,7 +552,8 @@ TEST(SlidingContact, TellsTheForcesThatActInTheEquations) {
   Numbers numbers(79);
   const SlidingModel model(wavy_beam(false), two_of(test::all_walls(true), 1), 0.1);
   const SlidingContact& system = model.system();
-  const State state = random_state(model, piece_of(model, layouts()[8]), numbers);  // a pressed part on the lower wall
+  const State state =
+      random_state(model, active_set_of(model, layouts()[8]), numbers);  // a pressed part on the lower wall
   const MeshState now = mesh_state_of(state);
   const SlidingMesh& mesh = mesh_of(state);
   Vector with(state.x.size()), without(state.x.size());
@@ -592,17 +594,17 @@ TEST(SlidingContact, AdoptsStatesOfABodyUnderOtherLoads) {
   Numbers numbers(77);
   const auto walls = two_of(test::all_walls(false), 0);
   StructureBuilder loaded = wavy_beam(false);
-  loaded.add_load(loaded.freedom(1, Freedom::z), 5.0, LoadKind::constant);
+  loaded.add_load(loaded.dof(1, Dof::z), 5.0, LoadKind::constant);
   const SlidingModel from(wavy_beam(false), walls, 0.1), to(loaded, walls, 0.1);
-  const State state = random_state(from, piece_of(from, layouts()[3]), numbers);
+  const State state = random_state(from, active_set_of(from, layouts()[3]), numbers);
   const State adopted = to.system().adopted(state);
   EXPECT_EQ(adopted.x, state.x);
   EXPECT_EQ(adopted.lambda, state.lambda);
-  EXPECT_EQ(adopted.piece.closed_count(), state.piece.closed_count());
+  EXPECT_EQ(adopted.active_set.closed_count(), state.active_set.closed_count());
   Vector before(state.x.size()), after(state.x.size());
   from.system().residual(state, before);
   to.system().residual(adopted, after);
-  const Index loaded_unknown = *to.structure().unknown(mesh_of(adopted), to.structure().freedom(1, Freedom::z));
+  const Index loaded_unknown = *to.structure().unknown(mesh_of(adopted), to.structure().dof(1, Dof::z));
   EXPECT_NEAR(before[loaded_unknown] - after[loaded_unknown], 5.0, 1e-12);
   after[loaded_unknown] = before[loaded_unknown];
   EXPECT_EQ(before, after);
@@ -615,7 +617,7 @@ TEST(SlidingContact, PlacesMoveWithTheMeshConsistently) {
   using Component = MemberObservable::Component;
   const SlidingModel model(wavy_beam(false), two_of(test::all_walls(false), 0), 0.1);
   for (const std::size_t i : {2U, 3U, 7U}) {
-    const State state = random_state(model, piece_of(model, layouts()[i]), numbers);
+    const State state = random_state(model, active_set_of(model, layouts()[i]), numbers);
     for (const Component component :
          {Component::x, Component::z, Component::rotation, Component::face_above_z, Component::face_below_z})
       for (const double fraction : {0.013, 0.27, 0.5, 0.77, 0.93})
@@ -635,11 +637,10 @@ TEST(SlidingContact, PlacesMoveWithTheMeshConsistently) {
 TEST(SlidingContact, JointsAndReactionsMoveConsistently) {
   Numbers numbers(76);
   const SlidingModel model(wavy_beam(false), two_of(test::all_walls(false), 0), 0.1);
-  const State state = random_state(model, piece_of(model, layouts()[3]), numbers);
-  for (const Freedom which : {Freedom::x, Freedom::z}) {
+  const State state = random_state(model, active_set_of(model, layouts()[3]), numbers);
+  for (const Dof which : {Dof::x, Dof::z}) {
     EXPECT_LE(check_gradient(*model.joint(1, which), state), 1e-9);
-    const JointObservable reaction(model.structure(), model.structure().freedom(0, which),
-                                   JointObservable::What::reaction);
+    const JointObservable reaction(model.structure(), model.structure().dof(0, which), JointObservable::What::reaction);
     EXPECT_LE(check_gradient(reaction, state), 1e-7);
   }
 }

@@ -64,9 +64,9 @@ std::vector<test::TestWall> moving_walls() {
 
 // A random state, some contacts closed with forces of either sign.
 State random_state(const MultiplierContact& system, Numbers& numbers) {
-  Piece piece = system.open_piece();
-  for (std::size_t j = 0; j < piece.size(); ++j) piece[j] = numbers() > 0.4 ? 1 : 0;
-  return {.x = 0.2 * numbers.vector(system.size(piece)), .lambda = numbers(), .piece = piece};
+  ActiveSet active_set = system.open_active_set();
+  for (std::size_t j = 0; j < active_set.size(); ++j) active_set[j] = numbers() > 0.4 ? 1 : 0;
+  return {.x = 0.2 * numbers.vector(system.size(active_set)), .lambda = numbers(), .active_set = active_set};
 }
 
 // The greatest error of K at `count` random states.

@@ -133,7 +133,7 @@ TEST(Corrector, CountsNegativeEigenvaluesWithAllContactsHeld) {
   toy.G = Matrix{{1.0, 0.0}};
   toy.gap0 = Vector::Zero(1);
   Corrector corrector(toy, {}, 1.0);
-  const State held{.x = Vector{{0.0, 1.0, 1.0}}, .lambda = -1.0, .piece = {1}};
+  const State held{.x = Vector{{0.0, 1.0, 1.0}}, .lambda = -1.0, .active_set = {1}};
   const auto result = corrector.inspect(held, Metric(toy.weights({1}), 1.0), {.dx = Vector::Zero(3), .dlambda = 1.0});
   ASSERT_TRUE(result.converged());
   EXPECT_EQ(result.negative, 1);

@@ -13,7 +13,7 @@ namespace {
 
 using Contacts = DeflatedNewton::Contacts;
 
-State at(double x) { return {.x = test::scalar(x), .lambda = 0.0, .piece = {}}; }
+State at(double x) { return {.x = test::scalar(x), .lambda = 0.0, .active_set = {}}; }
 
 // One unknown that a spring pushes, by λ, onto a wall at 1 from below.
 test::LinearContactToy pushed_onto_a_wall() {
@@ -70,13 +70,15 @@ TEST(DeflatedNewton, ClosesAndOpensContacts) {
   const test::LinearContactToy toy = pushed_onto_a_wall();
   for (const double guess : {-0.5, 0.9, 1.7}) {
     DeflatedNewton newton(toy, Contacts::follow, make_ldlt);
-    const DeflatedResult pressed = newton.from({.x = test::scalar(guess), .lambda = 2.0, .piece = toy.open_piece()});
+    const DeflatedResult pressed =
+        newton.from({.x = test::scalar(guess), .lambda = 2.0, .active_set = toy.open_active_set()});
     ASSERT_EQ(pressed.end, DeflatedEnd::arrived);
-    ASSERT_EQ(pressed.state.piece, Piece{1});
+    ASSERT_EQ(pressed.state.active_set, ActiveSet{1});
     EXPECT_NEAR(pressed.state.x[0], 1.0, 1e-12);
     EXPECT_NEAR(pressed.state.x[1], 1.0, 1e-12);
-    const DeflatedResult free = newton.from({.x = test::scalar(guess), .lambda = 0.5, .piece = toy.open_piece()});
-    ASSERT_EQ(free.state.piece, Piece{0});
+    const DeflatedResult free =
+        newton.from({.x = test::scalar(guess), .lambda = 0.5, .active_set = toy.open_active_set()});
+    ASSERT_EQ(free.state.active_set, ActiveSet{0});
     EXPECT_NEAR(free.state.x[0], 0.5, 1e-12);
   }
 }
@@ -85,11 +87,11 @@ TEST(DeflatedNewton, ClosesAndOpensContacts) {
 TEST(DeflatedNewton, KeepsContacts) {
   const test::LinearContactToy toy = pushed_onto_a_wall();
   DeflatedNewton newton(toy, Contacts::keep, make_ldlt);
-  State guess{.x = Vector::Zero(2), .lambda = 0.5, .piece = Piece{1}};
+  State guess{.x = Vector::Zero(2), .lambda = 0.5, .active_set = ActiveSet{1}};
   guess.x[0] = 0.9;
   const DeflatedResult result = newton.from(guess);
   ASSERT_EQ(result.end, DeflatedEnd::arrived);
-  EXPECT_EQ(result.state.piece, Piece{1});
+  EXPECT_EQ(result.state.active_set, ActiveSet{1});
   EXPECT_NEAR(result.state.x[1], -0.5, 1e-12);
 }
 

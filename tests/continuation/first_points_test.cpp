@@ -1,4 +1,4 @@
-// The first points of pieces pass every check that other points pass.
+// The first points of active sets pass every check that other points pass.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,8 +56,8 @@ void expect_growing_arcs(const Branch& branch) {
 // bound is at x = 1.1, λ = 1.096.
 SpreadingToy gentle() { return {0.5, 0.4}; }
 
-// The span is resolved from 1/16 of its first length on; nearer to the bound the point's piece serves, which misses x
-// by c (d₀/16)³ at most.
+// The span is resolved from 1/16 of its first length on; nearer to the bound the point's active set serves, which
+// misses x by c (d₀/16)³ at most.
 constexpr double missed = 0.5 * 0.025 * 0.025 * 0.025;
 
 }  // namespace
@@ -205,7 +205,7 @@ TEST(FirstPoints, AMeshThatChangesMovesThePathOverNoValue) {
 // The first point of the branch is a change of contacts, too.
 TEST(FirstPoints, AContactThatClosesAtTheStartEndsABranchThatIsToEndThere) {
   const auto system = test::stopped_springs(2.0);
-  const State touching{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .piece = {0}};
+  const State touching{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .active_set = {0}};
   const TargetValue far = stop_at_lambda(2.0);
   const Branch by_number = trace(system, {.target_values = {far}, .stop_contacts = 1}, touching);
   EXPECT_EQ(by_number.end.detail, "contacts = 1");

@@ -19,7 +19,7 @@ struct Pendulum : test::SmoothToy {
     K = [](const Vector& x, double) { return test::scalar_matrix(std::cos(x[0])); };
     F_lambda = [](const Vector&, double) { return test::scalar(-1.0); };
   }
-  std::vector<Index> turning_sets(const Piece&) const override {
+  std::vector<Index> turning_sets(const ActiveSet&) const override {
     return counts_turns ? std::vector<Index>() : std::vector<Index>{0};
   }
 };

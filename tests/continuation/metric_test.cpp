@@ -53,7 +53,7 @@ TEST(Metric, LengthsOfAModelDoNotDependOnItsUnits) {
   const auto in_m = test::Channel{.elements = 10, .walls = false, .cm = 0.01, .kN = 1000.0}.model();
   Vector x = test::Numbers(71).vector(in_cm.structure().size({})), y = x;
   for (Index i = 0; i < x.size(); ++i)
-    if (in_cm.structure().meaning(i).freedom != Freedom::rotation) y[i] *= 0.01;
+    if (in_cm.structure().meaning(i).dof != Dof::rotation) y[i] *= 0.01;
   const Metric a(in_cm.structure().weights({}), 0.4), b(in_m.structure().weights({}), 0.4);
   EXPECT_NEAR(a.norm({.dx = x, .dlambda = 0.1}), b.norm({.dx = y, .dlambda = 0.1}), 1e-14);
 }

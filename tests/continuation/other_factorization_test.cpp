@@ -72,7 +72,7 @@ void expect_same_path(const Structure& structure, TraceOptions options) {
 TEST(OtherFactorization, FindsTheSnapOfLeesFrame) {
   const auto structure = test::lee_frame(10);
   TraceOptions options{.step = {.first = 0.1}};
-  options.target_values = {test::stop_at(*structure, 2, Freedom::z, -90.0)};
+  options.target_values = {test::stop_at(*structure, 2, Dof::z, -90.0)};
   expect_same_path(*structure, options);
 }
 

@@ -12,10 +12,12 @@ namespace {
 
 using test::LinearContactToy;
 
-Piece open_piece(const LinearContactToy& toy) { return Piece(static_cast<std::size_t>(toy.contact_count()), 0); }
+ActiveSet open_active_set(const LinearContactToy& toy) {
+  return ActiveSet(static_cast<std::size_t>(toy.contact_count()), 0);
+}
 
 State origin(const LinearContactToy& toy) {
-  return {.x = Vector::Zero(toy.A.rows()), .lambda = 0.0, .piece = open_piece(toy)};
+  return {.x = Vector::Zero(toy.A.rows()), .lambda = 0.0, .active_set = open_active_set(toy)};
 }
 
 std::vector<Index> all(const LinearContactToy& toy) {
@@ -38,7 +40,7 @@ LinearContactToy rate_problem(const Matrix& M, const Vector& a) {
 void expect_ray(const LinearContactToy& toy, const State& corner, const std::vector<Index>& weak,
                 const OutgoingDirection& ray) {
   Linearization now;
-  const State there = toy.with_piece(corner, ray.piece);
+  const State there = toy.with_active_set(corner, ray.active_set);
   toy.linearize(there, now);
   ASSERT_EQ(ray.direction.dx.size(), there.x.size());
   const double size = ray.direction.dx.norm() + std::abs(ray.direction.dlambda);
@@ -47,7 +49,7 @@ void expect_ray(const LinearContactToy& toy, const State& corner, const std::vec
   EXPECT_LE(rate.norm(), 1e-10 * size * (1.0 + toy.A.norm()));
   const Index n = toy.A.rows();
   for (const Index j : weak) {
-    const auto k = toy.multiplier_index(ray.piece, j);
+    const auto k = toy.multiplier_index(ray.active_set, j);
     const double force = k ? ray.direction.dx[*k] : 0.0, opening = toy.G.row(j).dot(ray.direction.dx.head(n));
     EXPECT_GE(force, -1e-6 * size);
     EXPECT_GE(opening, -1e-6 * size);
@@ -73,12 +75,12 @@ Index with_rising_lambda(const std::vector<OutgoingDirection>& found) {
 
 TEST(Corner, AStopIsLeftForwardsClosedAndBackwardsOpen) {
   const LinearContactToy toy = test::stopped_springs(2.0);
-  const State corner{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .piece = {0}};
+  const State corner{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .active_set = {0}};
   const auto found = rays(toy, corner, {0});
   ASSERT_EQ(found.size(), 2U);
   for (const OutgoingDirection& ray : found) {
     const bool forward = ray.direction.dlambda > 0.0;
-    EXPECT_EQ(ray.piece, forward ? Piece{1} : Piece{0});
+    EXPECT_EQ(ray.active_set, forward ? ActiveSet{1} : ActiveSet{0});
     // Behind the stop ẋ = (0, 1/k), ṗ = 1; before it ẋ = (1, 1 + 1/k).
     const Vector dx = ray.direction.dx / ray.direction.dlambda;
     EXPECT_NEAR(dx[0], forward ? 0.0 : 1.0, 1e-14);
@@ -89,9 +91,9 @@ TEST(Corner, AStopIsLeftForwardsClosedAndBackwardsOpen) {
   }
 }
 
-TEST(Corner, TheSameRaysLeaveFromTheClosedPiece) {
+TEST(Corner, TheSameRaysLeaveFromTheClosedActiveSet) {
   const LinearContactToy toy = test::stopped_springs(2.0);
-  const State corner{.x = Vector{{1.0, 1.5, 0.0}}, .lambda = 1.0, .piece = {1}};
+  const State corner{.x = Vector{{1.0, 1.5, 0.0}}, .lambda = 1.0, .active_set = {1}};
   const auto found = rays(toy, corner, {0});
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(with_rising_lambda(found), 1);
@@ -103,7 +105,7 @@ TEST(Corner, AnUnstableFreeBranchMakesLambdaTurn) {
   const auto found = rays(toy, origin(toy), {0});
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(with_rising_lambda(found), 0);
-  EXPECT_NE(found[0].piece, found[1].piece);
+  EXPECT_NE(found[0].active_set, found[1].active_set);
 }
 
 // Two such contacts side by side, each open or closed as it likes: four rays, all towards falling λ.
@@ -112,10 +114,10 @@ TEST(Corner, SeveralRaysAreAllFound) {
   const auto found = rays(toy, origin(toy), all(toy));
   ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(with_rising_lambda(found), 0);
-  std::vector<Piece> pieces;
-  for (const OutgoingDirection& ray : found) pieces.push_back(ray.piece);
-  const std::vector<Piece> expected{{0, 0}, {0, 1}, {1, 0}, {1, 1}};
-  EXPECT_TRUE(std::is_permutation(pieces.begin(), pieces.end(), expected.begin(), expected.end()));
+  std::vector<ActiveSet> active_sets;
+  for (const OutgoingDirection& ray : found) active_sets.push_back(ray.active_set);
+  const std::vector<ActiveSet> expected{{0, 0}, {0, 1}, {1, 0}, {1, 1}};
+  EXPECT_TRUE(std::is_permutation(active_sets.begin(), active_sets.end(), expected.begin(), expected.end()));
 }
 
 // M = −[1 2; 2 1], a = (1, −1). λ̇ = 1: none closed ġ₂ = −1; 2 closed p₂ = −1; 1 closed p₁ = 1, ġ₂ = −3; both p₁ = −1.
@@ -131,7 +133,7 @@ TEST(Corner, OneOfOppositeContactsThatAreSymmetricOpensAsTheOtherCloses) {
   const auto found = rays(toy, origin(toy), all(toy));
   ASSERT_EQ(found.size(), 2U);
   for (const OutgoingDirection& ray : found)
-    EXPECT_EQ(ray.piece, ray.direction.dlambda > 0.0 ? (Piece{1, 1}) : (Piece{0, 0}));
+    EXPECT_EQ(ray.active_set, ray.direction.dlambda > 0.0 ? (ActiveSet{1, 1}) : (ActiveSet{0, 0}));
 }
 
 // One stop named twice: the force may be shared in any way, the motion is one.
@@ -139,7 +141,7 @@ TEST(Corner, GuardsThatCoincideGiveEachMotionOnce) {
   LinearContactToy toy = test::stopped_springs(2.0);
   toy.G = toy.G.replicate(2, 1).eval();
   toy.gap0 = Vector::Ones(2);
-  const State corner{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .piece = {0, 0}};
+  const State corner{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .active_set = {0, 0}};
   const auto found = rays(toy, corner, {0, 1});
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(with_rising_lambda(found), 1);
@@ -150,12 +152,12 @@ TEST(Corner, StronglyClosedContactsHoldMeanwhile) {
   LinearContactToy toy = test::stopped_springs(1.0);
   toy.G = Matrix{{-1.0, 0.0}, {0.0, -1.0}};
   toy.gap0 = Vector{{1.0, 3.0}};
-  const State corner{.x = Vector{{1.0, 3.0, 1.0}}, .lambda = 2.0, .piece = {1, 0}};
+  const State corner{.x = Vector{{1.0, 3.0, 1.0}}, .lambda = 2.0, .active_set = {1, 0}};
   const auto found = rays(toy, corner, {1});
   ASSERT_EQ(found.size(), 2U);
   for (const OutgoingDirection& ray : found) {
-    EXPECT_EQ(ray.piece[0], 1);
-    EXPECT_EQ(ray.piece[1], ray.direction.dlambda > 0.0 ? 1 : 0);
+    EXPECT_EQ(ray.active_set[0], 1);
+    EXPECT_EQ(ray.active_set[1], ray.direction.dlambda > 0.0 ? 1 : 0);
   }
 }
 
@@ -176,7 +178,7 @@ TEST(Corner, PivotingFindsTheRaysOfEnumerationForManyContacts) {
     ASSERT_EQ(pivoted.size(), 2U);
     for (const OutgoingDirection& a : pivoted) {
       const auto same = [&](const OutgoingDirection& b) {
-        if (a.piece != b.piece || a.direction.dlambda * b.direction.dlambda <= 0.0) return false;
+        if (a.active_set != b.active_set || a.direction.dlambda * b.direction.dlambda <= 0.0) return false;
         const Vector u = a.direction.dx / a.direction.dlambda, v = b.direction.dx / b.direction.dlambda;
         return (u - v).norm() <= 1e-9 * u.norm();
       };
@@ -195,7 +197,7 @@ TEST(Corner, MoreThanTwelveWeakContactsAreSolvedByPivotingByDefault) {
   ASSERT_EQ(found.size(), 2U);
   for (const OutgoingDirection& ray : found)
     for (Index i = 0; i < w; ++i)
-      EXPECT_EQ(ray.piece[static_cast<std::size_t>(i)] != 0, a[i] * ray.direction.dlambda < 0.0);
+      EXPECT_EQ(ray.active_set[static_cast<std::size_t>(i)] != 0, a[i] * ray.direction.dlambda < 0.0);
 }
 
 // A mass without a spring on a stop: it moves off without a load, or is pressed on by one.

@@ -37,7 +37,7 @@ EquilibriumLine line_of(const Direction& particular, const Direction& along) {
 
 TEST(PathConstraint, GradientsAreConsistent) {
   const test::LinearContactToy springs = test::stopped_springs(2.0);
-  const State guarded{.x = nearby.x, .lambda = nearby.lambda, .piece = {0}};
+  const State guarded{.x = nearby.x, .lambda = nearby.lambda, .active_set = {0}};
   const ParameterValue lambda;
   EXPECT_LE(check_gradient(ValueConstraint(first, 0.3), nearby), 1e-8);
   EXPECT_LE(check_gradient(ValueConstraint(lambda, 0.3), nearby), 1e-8);

@@ -18,7 +18,7 @@ test::LinearContactToy held_unstable() {
   return toy;
 }
 
-State with_force(double p) { return {.x = Vector{{0.0, 0.5, p}}, .lambda = 1.0, .piece = {1}}; }
+State with_force(double p) { return {.x = Vector{{0.0, 0.5, p}}, .lambda = 1.0, .active_set = {1}}; }
 
 }  // namespace
 
@@ -38,8 +38,8 @@ TEST(Stability, AContactWithoutForceHoldsNothingAndLeavesTheMatterOpen) {
   const StabilityCount count = counter.count(with_force(1e-13), std::nullopt);
   EXPECT_EQ(count.unstable, 1);
   EXPECT_EQ(count.stability, Stability::undecided);  // only motions off the wall are allowed
-  EXPECT_EQ(strictly_active(toy, with_force(1e-13), 1e-12), Piece{0});
-  EXPECT_EQ(strictly_active(toy, with_force(0.3), 1e-12), Piece{1});
+  EXPECT_EQ(strictly_active(toy, with_force(1e-13), 1e-12), ActiveSet{0});
+  EXPECT_EQ(strictly_active(toy, with_force(0.3), 1e-12), ActiveSet{1});
 }
 
 TEST(Stability, WhatIsUnstableWithAllContactsHeldIsUnstable) {
@@ -65,22 +65,23 @@ TEST(Stability, CountsAreRightNextToSingularity) {
       FactorizedEquations shared(toy);
       StabilityCounter counter(toy, shared, 1e-12);
       const Index unstable = sign < 0.0 ? 1 : 0;
-      EXPECT_EQ(counter.negative_on({.x = Vector::Zero(4), .lambda = 0.0, .piece = {1}}), unstable) << sign * k;
-      EXPECT_EQ(counter.negative_on({.x = Vector::Zero(3), .lambda = 0.0, .piece = {0}}), unstable + 1) << sign * k;
+      EXPECT_EQ(counter.negative_on({.x = Vector::Zero(4), .lambda = 0.0, .active_set = {1}}), unstable) << sign * k;
+      EXPECT_EQ(counter.negative_on({.x = Vector::Zero(3), .lambda = 0.0, .active_set = {0}}), unstable + 1)
+          << sign * k;
     }
 }
 
-TEST(Stability, CountsBySharedEquationsOnTheirPieceAndByItsOwnElsewhere) {
+TEST(Stability, CountsBySharedEquationsOnTheirActiveSetAndByItsOwnElsewhere) {
   const auto toy = held_unstable();
   FactorizedEquations shared(toy);
   StabilityCounter counter(toy, shared, 1e-12);
-  const State held = with_force(0.3), open = toy.with_piece(held, {0});
+  const State held = with_force(0.3), open = toy.with_active_set(held, {0});
   ASSERT_EQ(shared.set_point(held), FactorStatus::ok);
   EXPECT_EQ(counter.negative_on(open), 1);
   EXPECT_TRUE(shared.is_at(held));  // undisturbed
-  const State other{.x = 2.0 * held.x, .lambda = 1.0, .piece = {1}};
+  const State other{.x = 2.0 * held.x, .lambda = 1.0, .active_set = {1}};
   EXPECT_EQ(counter.negative_on(other), 0);
-  EXPECT_TRUE(shared.is_on(other.piece));
+  EXPECT_TRUE(shared.is_on(other.active_set));
   EXPECT_FALSE(shared.has_point());
 }
 

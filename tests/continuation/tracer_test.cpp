@@ -49,7 +49,7 @@ test::LinearContactToy strut_between_stops(double epsilon) {
 
 // Which stops are closed in the end, from where the strut is on the first one.
 Branch of_strut(double epsilon) {
-  const State leaning{.x = Vector{{0.0, 1.0, 0.5}}, .lambda = 0.5, .piece = {1, 0}};
+  const State leaning{.x = Vector{{0.0, 1.0, 0.5}}, .lambda = 0.5, .active_set = {1, 0}};
   const TraceOptions options{.target_values = {stop_at_lambda(0.4), stop_at_lambda(2.0)}};
   return trace(strut_between_stops(epsilon), options, leaning);
 }
@@ -297,7 +297,7 @@ TEST(Tracer, ClosesAContactWhereItTouchesAndGoesOn) {
 
 TEST(Tracer, OpensAContactWhoseForceVanishes) {
   const auto system = test::stopped_springs(2.0);
-  const State pressed{.x = Vector{{1.0, 2.0, 1.0}}, .lambda = 2.0, .piece = {1}};
+  const State pressed{.x = Vector{{1.0, 2.0, 1.0}}, .lambda = 2.0, .active_set = {1}};
   const TraceOptions options{.step = {.first = -0.02}, .target_values = {stop_at_lambda(0.5)}};
   const Branch branch = trace(system, options, pressed);
   const Event opens = only_event(branch, EventKind::contact_opens);
@@ -315,7 +315,8 @@ TEST(Tracer, AStepThatEndsWithinRoundOffOfACornerIsFollowedByTheCorner) {
     for (int i = -20; i <= 20; ++i) {
       SCOPED_TRACE(i);
       const double begin = 1.1 + i * std::numeric_limits<double>::epsilon();
-      const State start{.x = Vector{{1.0, 1.0 + begin / k, begin - 1.0}}, .lambda = begin, .piece = Piece(1, 1)};
+      const State start{
+          .x = Vector{{1.0, 1.0 + begin / k, begin - 1.0}}, .lambda = begin, .active_set = ActiveSet(1, 1)};
       const Branch branch = trace(system, {.step = {.first = -0.1}, .target_values = {stop_at_lambda(0.5)}}, start);
       EXPECT_EQ(branch.end.reason, EndReason::stop);
       EXPECT_NEAR(only_event(branch, EventKind::contact_opens).state.lambda, 1.0, 1e-12);
@@ -327,11 +328,11 @@ TEST(Tracer, AStepThatEndsWithinRoundOffOfACornerIsFollowedByTheCorner) {
 // the one that the path has come along.
 TEST(Tracer, AForceThatIsNotZeroByTheErrorOfAMeshAndGrowsIsNoSecondCorner) {
   const auto system = test::stopped_springs(2.0);
-  const State touched{.x = Vector{{1.0, 1.5 - 2.5e-9, -5e-9}}, .lambda = 1.0 - 5e-9, .piece = {1}};
+  const State touched{.x = Vector{{1.0, 1.5 - 2.5e-9, -5e-9}}, .lambda = 1.0 - 5e-9, .active_set = {1}};
   const Branch branch = trace(system, {.target_values = {stop_at_lambda(2.0)}}, touched);
   EXPECT_EQ(branch.end.reason, EndReason::stop);
   EXPECT_EQ(events_of(branch).size(), 1u);  // the start
-  EXPECT_EQ(branch.last().state.piece, Piece{1});
+  EXPECT_EQ(branch.last().state.active_set, ActiveSet{1});
 }
 
 // A = −1, g = x: from (x, λ) = (1, −1) along x = −λ, which is unstable; at λ = 0 the contact closes and λ turns back
@@ -343,7 +344,7 @@ TEST(Tracer, AContactThatMakesLambdaTurnIsALimitPoint) {
   system.G = Matrix::Identity(1, 1);
   system.gap0 = Vector::Zero(1);
   const TraceOptions options{.target_values = {stop_at_lambda(-2.0)}};
-  const Branch branch = trace(system, options, {.x = test::scalar(1.0), .lambda = -1.0, .piece = {0}});
+  const Branch branch = trace(system, options, {.x = test::scalar(1.0), .lambda = -1.0, .active_set = {0}});
   EXPECT_EQ(branch.end.reason, EndReason::stop);
   EXPECT_NEAR(only_event(branch, EventKind::contact_closes).state.lambda, 0.0, 1e-12);
   const Event limit = only_event(branch, EventKind::contact_limit_point);
@@ -361,7 +362,7 @@ TEST(Tracer, AContactThatMissesACornerByTheErrorOfAMeshBelongsToIt) {
     SCOPED_TRACE(epsilon);
     const Branch branch = of_strut(epsilon);
     EXPECT_EQ(branch.end.reason, EndReason::stop);
-    EXPECT_EQ(branch.last().state.piece, (Piece{1, 1}));
+    EXPECT_EQ(branch.last().state.active_set, (ActiveSet{1, 1}));
     EXPECT_NEAR(branch.last().state.lambda, 2.0, 1e-12);
     EXPECT_EQ(branch.last().count.unstable, 0);
     EXPECT_NEAR(branch.last().state.x[2] + branch.last().state.x[3], 1.0, 1e-6);  // λ − 1
@@ -374,18 +375,18 @@ TEST(Tracer, AContactThatMissesACornerByTheErrorOfAMeshBelongsToIt) {
 // What is a gap on any mesh is none of the corner's: the strut falls back, unstable.
 TEST(Tracer, AContactThatIsOpenWhereAnotherIsLetGoIsNoneOfTheCorner) {
   const Branch branch = of_strut(1e-3);
-  EXPECT_EQ(branch.last().state.piece, (Piece{0, 0}));
+  EXPECT_EQ(branch.last().state.active_set, (ActiveSet{0, 0}));
   EXPECT_NEAR(branch.last().state.lambda, 0.4, 1e-12);
   EXPECT_EQ(branch.last().count.unstable, 1);
 }
 
 TEST(Tracer, StartsOnAClosedContactWithoutForce) {
   const auto system = test::stopped_springs(2.0);
-  const State touching{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .piece = {0}};
+  const State touching{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .active_set = {0}};
   const TraceOptions options{.target_values = {stop_at_lambda(2.0), stop_at_lambda(0.0)}};
   const Branch branch = trace(system, options, touching);
   EXPECT_NEAR(branch.last().state.lambda, 2.0, 1e-12);
-  EXPECT_EQ(branch.last().state.piece, Piece{1});
+  EXPECT_EQ(branch.last().state.active_set, ActiveSet{1});
 }
 
 TEST(Tracer, EndsAtACornerThatNoRayLeaves) {
@@ -394,7 +395,7 @@ TEST(Tracer, EndsAtACornerThatNoRayLeaves) {
   system.f = system.A * Vector{{1.0, -1.0}};
   system.G = Matrix::Identity(2, 2);
   system.gap0 = Vector::Zero(2);
-  Tracer tracer(system, {.x = Vector::Zero(2), .lambda = 0.0, .piece = {0, 0}}, {});
+  Tracer tracer(system, {.x = Vector::Zero(2), .lambda = 0.0, .active_set = {0, 0}}, {});
   while (tracer.next()) {
   }
   EXPECT_EQ(tracer.end()->reason, EndReason::no_continuation);
@@ -422,7 +423,7 @@ TEST(Tracer, AWallThatEndsEndsTheBranch) {
   struct Ending final : test::LinearContactToy {
     Ending() : LinearContactToy(test::stopped_springs(2.0)) {}
     std::optional<std::string> invalid_place(const State& s) const override {
-      return s.piece[0] && s.lambda > 1.5 ? std::optional<std::string>("the post at 0.5") : std::nullopt;
+      return s.active_set[0] && s.lambda > 1.5 ? std::optional<std::string>("the post at 0.5") : std::nullopt;
     }
   };
   const Ending system;

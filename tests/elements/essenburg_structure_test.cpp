@@ -44,13 +44,13 @@ std::unique_ptr<Structure> bent_beam(int elements, const test::EssenburgBeams& b
                       .quadratic = beams.quadratic,
                       .section = test::essenburg_section(E, nu, h, h),
                       .elements = elements});
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
-  builder.fix(builder.freedom(1, Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
+  builder.fix(builder.dof(1, Dof::z));
   builder.add_load(builder.shared_rotation(0).value(), -1.0, LoadKind::proportional);
   builder.add_load(builder.shared_rotation(1).value(), 1.0, LoadKind::proportional);
   for (const Index joint : {0, 1})
-    for (const ThicknessFreedoms& end : builder.thickness(joint)) {
+    for (const ThicknessDofs& end : builder.thickness(joint)) {
       if (!thickness_held) continue;
       builder.fix(end.e);
       builder.fix(end.xi);
@@ -74,11 +74,11 @@ std::unique_ptr<Structure> cantilever(std::unique_ptr<Axis> axis, int elements, 
                       .quadratic = beams.quadratic,
                       .section = test::essenburg_section(1.0, nu, 1.0, height),
                       .elements = elements});
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
   builder.fix(builder.shared_rotation(0).value());
-  builder.add_load(builder.freedom(1, Freedom::x), force.x(), LoadKind::proportional);
-  builder.add_load(builder.freedom(1, Freedom::z), force.y(), LoadKind::proportional);
+  builder.add_load(builder.dof(1, Dof::x), force.x(), LoadKind::proportional);
+  builder.add_load(builder.dof(1, Dof::z), force.y(), LoadKind::proportional);
   return builder.build();
 }
 
@@ -94,8 +94,8 @@ TEST(EssenburgStructure, LinearBendingIsExactAtTheNodesOfAnyMesh) {
       const Vector x = linear_solution(*structure);
       for (const MemberSection& at : structure->members()[0].contact_sections()) {
         const double s = 2.0 * at.fraction;
-        const auto value = [&](Index freedom) { return structure->value({.x = x}, freedom); };
-        EXPECT_NEAR(value(structure->freedom(at.node, Freedom::z)), -0.5 * kappa * s * (2.0 - s), 1e-11 * kappa);
+        const auto value = [&](Index dof) { return structure->value({.x = x}, dof); };
+        EXPECT_NEAR(value(structure->dof(at.node, Dof::z)), -0.5 * kappa * s * (2.0 - s), 1e-11 * kappa);
         EXPECT_NEAR(value(*at.rotation), kappa * (s - 1.0), 1e-11 * kappa);
         EXPECT_NEAR(value(at.thickness->e), 0.0, 1e-11 * kappa);
         EXPECT_NEAR(value(at.thickness->xi), 0.5 * nu * kappa, 1e-10 * kappa);
@@ -108,7 +108,7 @@ TEST(EssenburgStructure, LinearBendingMovesTheLowerFaceLessThanTheAxis) {
   const auto structure = bent_beam(2, {.order = 1});
   const Vector x = 0.4 * linear_solution(*structure);
   const MemberSection middle = structure->members()[0].section(1);
-  const double w = structure->value({.x = x}, structure->freedom(middle.node, Freedom::z));
+  const double w = structure->value({.x = x}, structure->dof(middle.node, Dof::z));
   const double xi = structure->value({.x = x}, middle.thickness->xi),
                e = structure->value({.x = x}, middle.thickness->e);
   EXPECT_NEAR(w, -0.07142857142857, 1e-12);
@@ -185,8 +185,8 @@ TEST(EssenburgStructure, AnEndMomentRollsTheCantileverUp) {
                       .quadratic = QuadraticTerm::director,
                       .section = test::essenburg_section(1.0, nu, 1.0, thin),
                       .elements = 40});
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
   builder.fix(builder.shared_rotation(0).value());
   builder.add_load(builder.shared_rotation(1).value(), 2.0 * pi * bending, LoadKind::proportional);
   const auto structure = builder.build();
@@ -203,8 +203,8 @@ TEST(EssenburgStructure, ThicknessIsFreeAtSupportsUnlessHeld) {
     const auto structure = bent_beam(80, {}, held);
     const Vector x = linear_solution(*structure);
     const MemberSection middle = structure->members()[0].section(40);
-    const auto value = [&](Index freedom) { return structure->value({.x = x}, freedom); };
-    const double bottom = value(structure->freedom(middle.node, Freedom::z)) - 0.5 * h * value(middle.thickness->e) +
+    const auto value = [&](Index dof) { return structure->value({.x = x}, dof); };
+    const double bottom = value(structure->dof(middle.node, Dof::z)) - 0.5 * h * value(middle.thickness->e) +
                           0.25 * h * h * value(middle.thickness->xi);
     return -0.08 / bottom;
   };
@@ -230,10 +230,10 @@ std::unique_ptr<Structure> two_members(double kink, bool hinge, double second_he
                         .elements = 4,
                         .hinge_from = k == 1 && hinge});
   }
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
   builder.fix(builder.shared_rotation(0).value());
-  builder.add_load(builder.freedom(2, Freedom::z), 1e-5, LoadKind::proportional);
+  builder.add_load(builder.dof(2, Dof::z), 1e-5, LoadKind::proportional);
   return builder.build();
 }
 
@@ -245,7 +245,7 @@ TEST(EssenburgStructure, MembersThatGoOnStraightShareTheirThickness) {
   const auto whole = cantilever(straight_axis({0.0, 0.0}, {1.0, 0.0}), 8, {}, 0.2, {0.0, 1e-4});
   EXPECT_EQ(cut->size({}), whole->size({}));
   const Vector x = linear_solution(*cut), y = linear_solution(*whole);  // widths 0.1 and 1, loads alike
-  EXPECT_NEAR(cut->value({.x = x}, cut->freedom(2, Freedom::z)), whole->value({.x = y}, whole->freedom(1, Freedom::z)),
+  EXPECT_NEAR(cut->value({.x = x}, cut->dof(2, Dof::z)), whole->value({.x = y}, whole->dof(1, Dof::z)),
               1e-10 * std::abs(x.maxCoeff()));
   EXPECT_EQ(two_members(0.01, false)->size({}), whole->size({}) + 2);
   EXPECT_EQ(two_members(0.0, false, 0.1)->size({}), whole->size({}) + 2);
@@ -266,15 +266,15 @@ TEST(EssenburgStructure, ReactionsBalanceADistributedLoad) {
                                              .order = order,
                                              .section = test::essenburg_section(100.0, nu, 0.2, 0.2),
                                              .elements = 5});
-    builder.fix(builder.freedom(0, Freedom::x));
-    builder.fix(builder.freedom(0, Freedom::z));
+    builder.fix(builder.dof(0, Dof::x));
+    builder.fix(builder.dof(0, Dof::z));
     builder.fix(builder.shared_rotation(0).value());
     builder.add_distributed_load(member, {0.01, -0.02}, LoadKind::proportional);
     const auto structure = builder.build();
     const State state = test::solved_at(*structure, test::rest(*structure), 1.0, 4);
     const double length = std::hypot(1.0, 0.5);
-    EXPECT_NEAR(structure->reaction(state, structure->freedom(0, Freedom::x)), -0.01 * length, 1e-13);
-    EXPECT_NEAR(structure->reaction(state, structure->freedom(0, Freedom::z)), 0.02 * length, 1e-13);
+    EXPECT_NEAR(structure->reaction(state, structure->dof(0, Dof::x)), -0.01 * length, 1e-13);
+    EXPECT_NEAR(structure->reaction(state, structure->dof(0, Dof::z)), 0.02 * length, 1e-13);
   }
 }
 

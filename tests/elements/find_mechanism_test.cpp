@@ -21,8 +21,8 @@ std::unique_ptr<Structure> portal(bool hinged_corners, double unit = 1.0) {
                         .hinge_from = hinged_corners && i == 1,
                         .hinge_to = hinged_corners && i == 1});
   for (const Index foot : {0, 3})
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(foot, which));
-  builder.add_load(builder.freedom(1, Freedom::x), 1.0, LoadKind::proportional);
+    for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(foot, which));
+  builder.add_load(builder.dof(1, Dof::x), 1.0, LoadKind::proportional);
   return builder.build();
 }
 
@@ -38,7 +38,7 @@ std::unique_ptr<Structure> bar_chain(const std::vector<Vec2>& at) {
                         .theory = Theory::truss,
                         .section = {.E = 1.0, .A = 1.0}});
   for (const std::size_t end : {std::size_t{0}, at.size() - 1})
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(static_cast<Index>(end), which));
+    for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(static_cast<Index>(end), which));
   return builder.build();
 }
 
@@ -63,9 +63,9 @@ struct StraightBeam {
                           .section = {.E = 1.0, .A = height, .I = height * height * height / 12.0},
                           .elements = elements,
                           .hinge_to = i == hinge});
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(0, which));
+    for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(0, which));
     if (clamped) builder.fix(*builder.shared_rotation(0));
-    if (supported) builder.fix(builder.freedom(members, Freedom::z));
+    if (supported) builder.fix(builder.dof(members, Dof::z));
     return builder.build();
   }
 };
@@ -92,9 +92,9 @@ std::unique_ptr<Structure> girder(int panels, int without_diagonal = -1) {
     bar(2 * i + 1, 2 * i + 3);
     if (i != without_diagonal) bar(2 * i, 2 * i + 3);
   }
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
-  builder.fix(builder.freedom(2 * Index(panels), Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
+  builder.fix(builder.dof(2 * Index(panels), Dof::z));
   return builder.build();
 }
 
@@ -119,7 +119,7 @@ TEST(FindMechanism, OneHingeAmongManyMembersIsFound) {
   StraightBeam beam{.members = 400, .supported = true, .hinge = 100};
   const auto mechanism = find_mechanism(*beam.structure());
   ASSERT_TRUE(mechanism.has_value());
-  EXPECT_EQ(mechanism->freedom, Freedom::rotation);  // both parts turn about their ends, the shorter one more
+  EXPECT_EQ(mechanism->dof, Dof::rotation);  // both parts turn about their ends, the shorter one more
   EXPECT_LE(mechanism->node, 101);
   beam.clamped = true;
   EXPECT_FALSE(find_mechanism(*beam.structure()));
@@ -138,7 +138,7 @@ TEST(FindMechanism, APortalWithFourHingesSways) {
     ASSERT_TRUE(mechanism.has_value());
     // Sway moves both corners by the same; rotations of the columns are a third of it per unit of length.
     EXPECT_TRUE(mechanism->node == 1 || mechanism->node == 2);
-    EXPECT_EQ(mechanism->freedom, Freedom::x);
+    EXPECT_EQ(mechanism->dof, Dof::x);
   }
 }
 
@@ -150,7 +150,7 @@ TEST(FindMechanism, AStraightChainOfTwoBarsMovesAcross) {
   const auto mechanism = find_mechanism(*bar_chain({{0.0, 0.0}, {1.0, 0.0}, {2.5, 0.0}}));
   ASSERT_TRUE(mechanism.has_value());
   EXPECT_EQ(mechanism->node, 1);
-  EXPECT_EQ(mechanism->freedom, Freedom::z);
+  EXPECT_EQ(mechanism->dof, Dof::z);
 }
 
 TEST(FindMechanism, ABentChainOfTwoBarsStandsAndOneOfThreeMoves) {
@@ -189,12 +189,12 @@ TEST(FreeDirections, AreThoseOfAllMotions) {
                         .to = 1,
                         .axis = straight_axis({0.0, 0.0}, {2.0, 0.0}),
                         .section = {.E = 1.0, .A = 1.0, .I = 1.0}});
-    builder.fix(builder.freedom(0, Freedom::x));
+    builder.fix(builder.dof(0, Dof::x));
     if (sprung)
-      for (const Index end : {0, 1}) builder.add_ground_stiffness(builder.freedom(end, Freedom::z), 1e-3);
+      for (const Index end : {0, 1}) builder.add_ground_stiffness(builder.dof(end, Dof::z), 1e-3);
     const std::vector<NodeDirection> free = free_directions(*builder.build(), {0, 1});
     ASSERT_EQ(free.size(), sprung ? 0u : 2u);
-    for (const NodeDirection& one : free) EXPECT_EQ(one.freedom, Freedom::z);
+    for (const NodeDirection& one : free) EXPECT_EQ(one.dof, Dof::z);
   }
 }
 
@@ -210,8 +210,8 @@ TEST(FindMechanism, SpringsToTheGroundHold) {
                         .axis = straight_axis({0.0, 0.0}, {2.0, 1.0}),
                         .section = {.E = 1.0, .A = 1.0, .I = 1.0},
                         .elements = 3});
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(0, which));
-    if (springs == 1) builder.add_ground_stiffness(builder.freedom(1, Freedom::z), 1e-3);
+    for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(0, which));
+    if (springs == 1) builder.add_ground_stiffness(builder.dof(1, Dof::z), 1e-3);
     if (springs == 2) builder.add_ground_stiffness(builder.shared_rotation(0).value(), 1e-3);
     EXPECT_EQ(find_mechanism(*builder.build()).has_value(), springs == 0) << springs;
   }

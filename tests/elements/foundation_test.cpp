@@ -54,9 +54,9 @@ double middle_deflection(const test::BeamTheory& theory, double EI, double GA, d
                       .order = theory.order,
                       .section = test::section_of(1000.0, EI, GA),
                       .elements = elements});
-  builder.fix(builder.freedom(0, Freedom::x));
+  builder.fix(builder.dof(0, Dof::x));
   builder.add_foundation(0, {0.0, k});
-  const Index middle = builder.freedom(builder.mesh(0).nodes[static_cast<std::size_t>(elements / 2)], Freedom::z);
+  const Index middle = builder.dof(builder.mesh(0).nodes[static_cast<std::size_t>(elements / 2)], Dof::z);
   builder.add_load(middle, P, LoadKind::proportional);
   const auto structure = builder.build();
   const State loaded = test::solved_at(*structure, {.x = Vector::Zero(structure->size({}))}, 1.0, 1);

@@ -43,7 +43,7 @@ StructureBuilder cantilever(const BeamKind& kind, bool bent, int elements) {
                       .order = kind.order,
                       .section = test::section_of(50.0, 0.7, 20.0),
                       .elements = elements});
-  for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(0, which));
+  for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(0, which));
   builder.fix(builder.shared_rotation(0).value());
   return builder;
 }
@@ -60,12 +60,12 @@ TEST(HeatedBeam, DerivativesAreConsistent) {
       SCOPED_TRACE(name_of(kind));
       StructureBuilder builder = cantilever(kind, bent, 4);
       builder.add_thermal_strain(0, warm);
-      builder.fix(builder.freedom(1, Freedom::z), {.proportional = 0.2});
-      builder.add_load(builder.freedom(1, Freedom::x), 0.3, LoadKind::proportional);
+      builder.fix(builder.dof(1, Dof::z), {.proportional = 0.2});
+      builder.add_load(builder.dof(1, Dof::x), 0.3, LoadKind::proportional);
       const auto structure = builder.build();
       const State state{.x = 0.1 * numbers.vector(structure->size({})), .lambda = 0.6};
       EXPECT_LE(check_derivatives(*structure, state).worst(), 1e-8);
-      const ReactionObservable reaction(*structure, structure->freedom(1, Freedom::z));
+      const ReactionObservable reaction(*structure, structure->dof(1, Dof::z));
       EXPECT_LE(check_gradient(reaction, state), 1e-8);
     }
 }
@@ -85,7 +85,7 @@ TEST(HeatedBeam, BendsFreelyToACircleSlow) {
     const double allowed = kind.theory == Theory::reissner ? (kind.order == 1 ? 1e-3 : 1e-7) : 1e-10;
     EXPECT_LE((structure->current(hot, 1) - tip).norm(), allowed);
     EXPECT_NEAR(structure->value(hot, structure->members()[0].rotations.back().value()), kappa * L, 1e-10);
-    EXPECT_NEAR(structure->reaction(hot, structure->freedom(0, Freedom::x)), 0.0, 1e-9);
+    EXPECT_NEAR(structure->reaction(hot, structure->dof(0, Dof::x)), 0.0, 1e-9);
     EXPECT_NEAR(structure->reaction(hot, structure->members()[0].rotations.front().value()), 0.0, 1e-9);
   }
 }
@@ -95,11 +95,11 @@ TEST(HeatedBeam, PressesAgainstFixedEnds) {
   for (const BeamKind& kind : beam_kinds) {
     SCOPED_TRACE(name_of(kind));
     StructureBuilder builder = cantilever(kind, false, 4);
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(1, which));
+    for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(1, which));
     builder.add_thermal_strain(0, {.strain = {.proportional = 1e-3}});
     const auto structure = builder.build();
     const State hot = test::solved_at(*structure, {.x = Vector::Zero(structure->size({}))}, 1.0, 1);
-    EXPECT_NEAR(structure->reaction(hot, structure->freedom(1, Freedom::x)), -0.05, 1e-12);
+    EXPECT_NEAR(structure->reaction(hot, structure->dof(1, Dof::x)), -0.05, 1e-12);
   }
 }
 
@@ -118,7 +118,7 @@ TEST(HeatedTruss, HasItsPartOfEveryDerivative) {
                           .strain = strain,
                           .section = {.E = 5.0, .A = 2.0}});
     for (const Index joint : {0, 2})
-      for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(joint, which));
+      for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(joint, which));
     builder.add_thermal_strain(0, {.strain = warm.strain});
     const auto structure = builder.build();
     const State state{.x = 0.1 * numbers.vector(structure->size({})), .lambda = 0.3};
@@ -131,17 +131,17 @@ TEST(HeatedBeam, IsTheSameWhereTheMeshSlides) {
   for (const BeamKind& kind : {beam_kinds[0], beam_kinds[1], beam_kinds[2]}) {
     SCOPED_TRACE(name_of(kind));
     StructureBuilder builder = cantilever(kind, true, 8);
-    builder.fix(builder.freedom(1, Freedom::z), {.proportional = 0.1});
+    builder.fix(builder.dof(1, Dof::z), {.proportional = 0.1});
     builder.add_thermal_strain(0, warm);
-    builder.add_load(builder.freedom(1, Freedom::x), 0.1, LoadKind::proportional);
+    builder.add_load(builder.dof(1, Dof::x), 0.1, LoadKind::proportional);
     const auto fixed = builder.build();
     const test::SlidingModel model(builder, {}, 0.1);
     const State tied = test::solved_at(*fixed, {.x = Vector::Zero(fixed->size({}))}, 1.0, 40);
     const State slid = test::solved_at(model.system(), model.system().rest(), 1.0, 40);
-    EXPECT_NEAR(model.joint(1, Freedom::x)->value(slid), fixed->value(tied, fixed->freedom(1, Freedom::x)), 1e-9);
+    EXPECT_NEAR(model.joint(1, Dof::x)->value(slid), fixed->value(tied, fixed->dof(1, Dof::x)), 1e-9);
     EXPECT_NEAR(model.system().energy(slid), fixed->energy(tied), 1e-9);
-    const JointObservable reaction(model.structure(), fixed->freedom(1, Freedom::z), JointObservable::What::reaction);
-    EXPECT_NEAR(reaction.value(slid), fixed->reaction(tied, fixed->freedom(1, Freedom::z)), 1e-9);
+    const JointObservable reaction(model.structure(), fixed->dof(1, Dof::z), JointObservable::What::reaction);
+    EXPECT_NEAR(reaction.value(slid), fixed->reaction(tied, fixed->dof(1, Dof::z)), 1e-9);
     EXPECT_LE(check_gradient(reaction, slid), 1e-7);
   }
 }

@@ -25,11 +25,11 @@ StructureBuilder described_beam() {
                       .imperfection = {{.amplitude = 0.03, .waves = 2}},
                       .section = {.E = 10.0, .A = 1.0, .I = 0.1, .height = 0.4},
                       .elements = 4});
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
   builder.fix(builder.shared_rotation(0).value());
-  builder.fix(builder.freedom(1, Freedom::z));
-  builder.add_load(builder.freedom(1, Freedom::x), 1.0, LoadKind::proportional);
+  builder.fix(builder.dof(1, Dof::z));
+  builder.add_load(builder.dof(1, Dof::x), 1.0, LoadKind::proportional);
   builder.add_distributed_load(0, {0.0, -1.0}, LoadKind::proportional);
   return builder;
 }
@@ -39,10 +39,10 @@ std::unique_ptr<Structure> beam() { return described_beam().build(); }
 // The same whose supports move with λ.
 std::unique_ptr<Structure> moved_beam() {
   StructureBuilder builder = described_beam();
-  builder.fix(builder.freedom(0, Freedom::x), {.constant = 0.1, .proportional = 0.5});
-  builder.fix(builder.freedom(0, Freedom::z), {.proportional = -0.2});
+  builder.fix(builder.dof(0, Dof::x), {.constant = 0.1, .proportional = 0.5});
+  builder.fix(builder.dof(0, Dof::z), {.proportional = -0.2});
   builder.fix(builder.shared_rotation(0).value(), {.constant = -0.3, .proportional = 1.5});
-  builder.fix(builder.freedom(1, Freedom::z), {.proportional = 0.7});
+  builder.fix(builder.dof(1, Dof::z), {.proportional = 0.7});
   return builder.build();
 }
 
@@ -159,12 +159,11 @@ TEST(MemberObservable, IsMeasuredFromTheAxisWithoutImperfection) {
   EXPECT_NEAR(at_rest(Component::face_above_z), above, 1e-15);
 }
 
-TEST(FreedomObservable, ReadsADisplacementAndIsZeroWhereHeld) {
+TEST(DofObservable, ReadsADisplacementAndIsZeroWhereHeld) {
   const auto structure = beam();
   const State state{.x = test::Numbers(43).vector(structure->size({}))};
-  const FreedomObservable free(*structure, structure->freedom(1, Freedom::x)),
-      held(*structure, structure->freedom(1, Freedom::z));
-  EXPECT_EQ(free.value(state), structure->value(state, structure->freedom(1, Freedom::x)));
+  const DofObservable free(*structure, structure->dof(1, Dof::x)), held(*structure, structure->dof(1, Dof::z));
+  EXPECT_EQ(free.value(state), structure->value(state, structure->dof(1, Dof::x)));
   EXPECT_LE(check_gradient(free, state), 1e-8);
   EXPECT_EQ(held.value(state), 0.0);
   EXPECT_EQ(held.gradient(state).dx.norm(), 0.0);
@@ -173,9 +172,9 @@ TEST(FreedomObservable, ReadsADisplacementAndIsZeroWhereHeld) {
 TEST(ReactionObservable, GradientsAreConsistent) {
   const auto structure = beam();
   const State state{.x = 0.3 * test::Numbers(44).vector(structure->size({})), .lambda = 0.7};
-  for (const Index freedom : {structure->freedom(0, Freedom::x), structure->freedom(0, Freedom::z),
-                              structure->freedom(1, Freedom::z), structure->members()[0].rotations[0].value()})
-    EXPECT_LE(check_gradient(ReactionObservable(*structure, freedom), state), 1e-7);
+  for (const Index dof : {structure->dof(0, Dof::x), structure->dof(0, Dof::z), structure->dof(1, Dof::z),
+                          structure->members()[0].rotations[0].value()})
+    EXPECT_LE(check_gradient(ReactionObservable(*structure, dof), state), 1e-7);
 }
 
 }  // namespace arcwall::member_point_test

@@ -45,8 +45,8 @@ StructureBuilder clamped_beam(const BeamKind& kind, const Vec2& to, int elements
                       .quadratic = quadratic,
                       .section = test::essenburg_section(100.0, 0.3, 0.2, 0.2),
                       .elements = elements});
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
   builder.fix(builder.shared_rotation(0).value());
   return builder;
 }
@@ -68,36 +68,36 @@ StructureBuilder plain_beam(const BeamKind& kind, double EA, double EI, double L
 }
 
 void clamp(StructureBuilder& builder, Index joint) {
-  builder.fix(builder.freedom(joint, Freedom::x));
-  builder.fix(builder.freedom(joint, Freedom::z));
+  builder.fix(builder.dof(joint, Dof::x));
+  builder.fix(builder.dof(joint, Dof::z));
   builder.fix(builder.shared_rotation(joint).value());
 }
 
 State rest(const System& system) { return {.x = Vector::Zero(system.size({}))}; }
 
-// Every freedom of the first end is moved, and one of the last; springs at the last and inside, to the ground and
-// between freedoms of which none, one or both are held.
+// Every degree of freedom of the first end is moved, and one of the last; springs at the last and inside, to the ground
+// and between degrees of freedom of which none, one or both are held.
 StructureBuilder moved_and_sprung(const BeamKind& kind) {
   StructureBuilder builder = clamped_beam(kind, {2.0, 0.5}, 4);
-  builder.fix(builder.freedom(0, Freedom::x), {.constant = 0.01, .proportional = 0.05});
-  builder.fix(builder.freedom(0, Freedom::z), {.proportional = 0.1});
+  builder.fix(builder.dof(0, Dof::x), {.constant = 0.01, .proportional = 0.05});
+  builder.fix(builder.dof(0, Dof::z), {.proportional = 0.1});
   builder.fix(builder.shared_rotation(0).value(), {.constant = 0.03, .proportional = -0.2});
-  for (const ThicknessFreedoms& end : builder.thickness(0)) {
+  for (const ThicknessDofs& end : builder.thickness(0)) {
     builder.fix(end.e, {.constant = 0.01, .proportional = 0.02});
     builder.fix(end.xi, {.proportional = -0.03});
   }
-  builder.fix(builder.freedom(1, Freedom::z), {.constant = 0.02, .proportional = -0.1});
-  builder.add_ground_stiffness(builder.freedom(1, Freedom::x), 0.7);
-  builder.add_ground_stiffness(builder.freedom(1, Freedom::z), 0.3);  // at a support that moves
+  builder.fix(builder.dof(1, Dof::z), {.constant = 0.02, .proportional = -0.1});
+  builder.add_ground_stiffness(builder.dof(1, Dof::x), 0.7);
+  builder.add_ground_stiffness(builder.dof(1, Dof::z), 0.3);  // at a support that moves
   builder.add_ground_stiffness(builder.shared_rotation(1).value(), 0.2);
-  builder.add_ground_stiffness(builder.freedom(builder.mesh(0).nodes[2], Freedom::z), 1.1);
-  builder.add_spring(builder.freedom(0, Freedom::z), builder.freedom(builder.mesh(0).nodes[3], Freedom::z), 0.6);
-  builder.add_spring(builder.freedom(1, Freedom::z), builder.freedom(0, Freedom::z), 0.5);
+  builder.add_ground_stiffness(builder.dof(builder.mesh(0).nodes[2], Dof::z), 1.1);
+  builder.add_spring(builder.dof(0, Dof::z), builder.dof(builder.mesh(0).nodes[3], Dof::z), 0.6);
+  builder.add_spring(builder.dof(1, Dof::z), builder.dof(0, Dof::z), 0.5);
   builder.add_spring(builder.mesh(0).rotations[1].value(), builder.mesh(0).rotations[3].value(), 0.04);
   builder.add_foundation(0, {0.2, 0.3});
-  builder.add_load(builder.freedom(1, Freedom::x), 0.02, LoadKind::proportional);
-  builder.add_load(builder.freedom(1, Freedom::z), -0.03, LoadKind::proportional);
-  builder.add_load(builder.freedom(builder.mesh(0).nodes[1], Freedom::z), 0.01, LoadKind::constant);
+  builder.add_load(builder.dof(1, Dof::x), 0.02, LoadKind::proportional);
+  builder.add_load(builder.dof(1, Dof::z), -0.03, LoadKind::proportional);
+  builder.add_load(builder.dof(builder.mesh(0).nodes[1], Dof::z), 0.01, LoadKind::constant);
   return builder;
 }
 
@@ -119,7 +119,7 @@ TEST(NodalTerms, AreZeroWhereNothingWasSaid) {
   EXPECT_EQ(terms.ground_stiffness(7), 0.0);
   EXPECT_EQ(terms.support_force(4, 0.0, [](Index) { return 0.0; }), -3.0);
   EXPECT_EQ(terms.support_force(4, 1.0, [](Index) { return 0.0; }), -1.0);
-  EXPECT_EQ(terms.greatest_proportional_load([](Index freedom) { return freedom == 3 ? 10.0 : 1.0; }), 2.5);
+  EXPECT_EQ(terms.greatest_proportional_load([](Index dof) { return dof == 3 ? 10.0 : 1.0; }), 2.5);
   EXPECT_EQ(terms.ramp().load(7), (Driven{.proportional = 1.0}));
   EXPECT_EQ(terms.ramp().support(4), Driven{});
   EXPECT_EQ(terms.ramp().ground_stiffness(4), 8.0);
@@ -135,11 +135,11 @@ TEST(MovedSupport, DerivativesAreConsistentWhateverTheTheory) {
     const auto structure = moved_and_sprung(kind).build();
     const State state{.x = 0.1 * numbers.vector(structure->size({})), .lambda = 0.5 + 0.2 * numbers()};
     EXPECT_LE(check_derivatives(*structure, state).worst(), 1e-9);
-    std::vector<Index> held{structure->freedom(0, Freedom::x), structure->freedom(0, Freedom::z),
-                            structure->members()[0].rotations.front().value(), structure->freedom(1, Freedom::z)};
-    for (const Index freedom : held) {
-      EXPECT_LE(check_gradient(ReactionObservable(*structure, freedom), state), 1e-9);
-      EXPECT_LE(check_gradient(FreedomObservable(*structure, freedom), state), 1e-9);
+    std::vector<Index> held{structure->dof(0, Dof::x), structure->dof(0, Dof::z),
+                            structure->members()[0].rotations.front().value(), structure->dof(1, Dof::z)};
+    for (const Index dof : held) {
+      EXPECT_LE(check_gradient(ReactionObservable(*structure, dof), state), 1e-9);
+      EXPECT_LE(check_gradient(DofObservable(*structure, dof), state), 1e-9);
     }
   }
 }
@@ -154,18 +154,18 @@ TEST(MovedSupport, OfAClampedBeamHasTheForcesOfSlopeDeflection) {
     SCOPED_TRACE(name_of(kind));
     StructureBuilder builder = plain_beam(kind, 1000.0, EI, L, 6, GA);
     clamp(builder, 0);
-    builder.fix(builder.freedom(1, Freedom::z), {.proportional = delta});
+    builder.fix(builder.dof(1, Dof::z), {.proportional = delta});
     builder.fix(builder.shared_rotation(1).value());
     const auto structure = builder.build();
     const State moved = test::solved_at(*structure, rest(*structure), 1.0, 1);
     const double softer = kind.theory == Theory::reissner ? 1.0 + 12.0 * EI / (GA * L * L) : 1.0;
     const double force = 12.0 * EI * delta / (L * L * L * softer), moment = 6.0 * EI * delta / (L * L * softer);
     const auto rotation = [&](std::size_t at) { return structure->members()[0].rotations[at].value(); };
-    EXPECT_NEAR(structure->reaction(moved, structure->freedom(1, Freedom::z)), force, 1e-7 * force);
-    EXPECT_NEAR(structure->reaction(moved, structure->freedom(0, Freedom::z)), -force, 1e-7 * force);
+    EXPECT_NEAR(structure->reaction(moved, structure->dof(1, Dof::z)), force, 1e-7 * force);
+    EXPECT_NEAR(structure->reaction(moved, structure->dof(0, Dof::z)), -force, 1e-7 * force);
     EXPECT_NEAR(structure->reaction(moved, rotation(0)), -moment, 1e-7 * moment);
     EXPECT_NEAR(structure->reaction(moved, rotation(6)), -moment, 1e-7 * moment);
-    EXPECT_EQ(structure->value(moved, structure->freedom(1, Freedom::z)), delta);
+    EXPECT_EQ(structure->value(moved, structure->dof(1, Dof::z)), delta);
     EXPECT_EQ(structure->current(moved, 1).y(), delta);
   }
 }
@@ -176,14 +176,14 @@ TEST(MovedSupport, TurnsTheEndOfAClampedBeam) {
   const double EI = 3.0, L = 2.0, angle = 1e-5;
   StructureBuilder builder = plain_beam({Theory::euler_bernoulli, 2}, 1000.0, EI, L, 5);
   clamp(builder, 0);
-  builder.fix(builder.freedom(1, Freedom::z));
+  builder.fix(builder.dof(1, Dof::z));
   builder.fix(builder.shared_rotation(1).value(), {.proportional = angle});
   const auto structure = builder.build();
   const State turned = test::solved_at(*structure, rest(*structure), 1.0, 1);
   const auto rotation = [&](std::size_t at) { return structure->members()[0].rotations[at].value(); };
   EXPECT_NEAR(structure->reaction(turned, rotation(5)) / angle, 4.0 * EI / L, 1e-7);
   EXPECT_NEAR(structure->reaction(turned, rotation(0)) / angle, 2.0 * EI / L, 1e-7);
-  EXPECT_NEAR(structure->reaction(turned, structure->freedom(1, Freedom::z)) / angle, -6.0 * EI / (L * L), 1e-7);
+  EXPECT_NEAR(structure->reaction(turned, structure->dof(1, Dof::z)) / angle, -6.0 * EI / (L * L), 1e-7);
 }
 
 // Two bars in a row: the force is EA δ / 2, half of δ stands in the middle. Strain is nonlinear by δ.
@@ -201,16 +201,16 @@ TEST(MovedSupport, PullsBars) {
                           .strain = strain,
                           .section = {.E = 5.0, .A = 2.0}});
     const double delta = 1e-6;
-    for (const Index joint : {0, 1, 2}) builder.fix(builder.freedom(joint, Freedom::z));
-    builder.fix(builder.freedom(0, Freedom::x));
-    builder.fix(builder.freedom(2, Freedom::x), {.proportional = delta});
+    for (const Index joint : {0, 1, 2}) builder.fix(builder.dof(joint, Dof::z));
+    builder.fix(builder.dof(0, Dof::x));
+    builder.fix(builder.dof(2, Dof::x), {.proportional = delta});
     const auto structure = builder.build();
     const State pulled = test::solved_at(*structure, rest(*structure), 1.0, 1);
-    EXPECT_NEAR(structure->reaction(pulled, structure->freedom(2, Freedom::x)) / delta, 10.0 / 2.0, 1e-4);
-    EXPECT_NEAR(structure->reaction(pulled, structure->freedom(0, Freedom::x)) / delta, -10.0 / 2.0, 1e-4);
-    EXPECT_NEAR(structure->value(pulled, structure->freedom(1, Freedom::x)) / delta, 0.5, 1e-5);
+    EXPECT_NEAR(structure->reaction(pulled, structure->dof(2, Dof::x)) / delta, 10.0 / 2.0, 1e-4);
+    EXPECT_NEAR(structure->reaction(pulled, structure->dof(0, Dof::x)) / delta, -10.0 / 2.0, 1e-4);
+    EXPECT_NEAR(structure->value(pulled, structure->dof(1, Dof::x)) / delta, 0.5, 1e-5);
     const State loose{.x = 0.1 * test::Numbers(82).vector(structure->size({})), .lambda = 0.7};
-    builder.fix(builder.freedom(2, Freedom::x), {.proportional = 0.3});  // a movement whose F_λ differences resolve
+    builder.fix(builder.dof(2, Dof::x), {.proportional = 0.3});  // a movement whose F_λ differences resolve
     EXPECT_LE(check_derivatives(*builder.build(), loose).worst(), 1e-9);
   }
 }
@@ -224,11 +224,11 @@ TEST(MovedSupport, DoesWhatItsReactionDoesAsALoad) {
     const double length = 2.0, across = 0.6;
     StructureBuilder builder = clamped_beam(kind, {length, 0.0}, 6, QuadraticTerm::director);
     StructureBuilder loaded = builder;
-    builder.fix(builder.freedom(1, Freedom::z), {.proportional = across});
+    builder.fix(builder.dof(1, Dof::z), {.proportional = across});
     const auto moved = builder.build();
     const State at_place = test::solved_at(*moved, rest(*moved), 1.0, 12);
-    const auto reaction = [&](Index freedom) { return moved->reaction(at_place, freedom); };
-    const Index end_x = moved->freedom(1, Freedom::x), end_z = moved->freedom(1, Freedom::z);
+    const auto reaction = [&](Index dof) { return moved->reaction(at_place, dof); };
+    const Index end_x = moved->dof(1, Dof::x), end_z = moved->dof(1, Dof::z);
     const double force = reaction(end_z);
     EXPECT_GE(force, 0.003);  // 3 EI δ/L³ = 0.003, and more where it bends far
     EXPECT_LE(moved->value(at_place, end_x), -0.1);
@@ -237,16 +237,16 @@ TEST(MovedSupport, DoesWhatItsReactionDoesAsALoad) {
     const auto pushed = loaded.build();
     State under_load{.x = Vector::Zero(pushed->size({})), .lambda = 1.0};
     for (Index e = 0; e < pushed->element_count(); ++e)
-      for (std::size_t i = 0; i < pushed->element_freedoms(e).size(); ++i) {
-        const Index freedom = pushed->element_freedoms(e)[i];
-        if (const auto unknown = pushed->unknown(freedom)) under_load.x[*unknown] = moved->value(at_place, freedom);
+      for (std::size_t i = 0; i < pushed->element_dofs(e).size(); ++i) {
+        const Index dof = pushed->element_dofs(e)[i];
+        if (const auto unknown = pushed->unknown(dof)) under_load.x[*unknown] = moved->value(at_place, dof);
       }
     Vector F(under_load.x.size());
     pushed->residual(under_load, F);
     EXPECT_LE(F.norm(), 1e-11 * force);
 
-    EXPECT_NEAR(reaction(moved->freedom(0, Freedom::x)), 0.0, 1e-11 * force);
-    EXPECT_NEAR(reaction(moved->freedom(0, Freedom::z)), -force, 1e-11 * force);
+    EXPECT_NEAR(reaction(moved->dof(0, Dof::x)), 0.0, 1e-11 * force);
+    EXPECT_NEAR(reaction(moved->dof(0, Dof::z)), -force, 1e-11 * force);
     const double arm = length + moved->value(at_place, end_x);
     EXPECT_NEAR(reaction(moved->members()[0].rotations.front().value()), -arm * force, 1e-11 * force);
   }
@@ -258,15 +258,14 @@ TEST(MovedSupport, DoesTheWorkOfItsReaction) {
     SCOPED_TRACE(name_of(kind));
     const auto structure = moved_and_sprung(kind).build();
     State state{.x = 0.1 * test::Numbers(83).vector(structure->size({})), .lambda = 0.4};
-    std::set<Index> freedoms;
+    std::set<Index> dofs;
     for (Index e = 0; e < structure->element_count(); ++e)
-      for (std::size_t i = 0; i < structure->element_freedoms(e).size(); ++i)
-        freedoms.insert(structure->element_freedoms(e)[i]);
+      for (std::size_t i = 0; i < structure->element_dofs(e).size(); ++i) dofs.insert(structure->element_dofs(e)[i]);
     double rate = 0.0;
-    for (const Index freedom : freedoms) {
-      const double load_rate = structure->nodal_terms().load(freedom).proportional;
-      rate += structure->reaction(state, freedom) * structure->held_rate(freedom);
-      rate -= load_rate * structure->value(state, freedom);
+    for (const Index dof : dofs) {
+      const double load_rate = structure->nodal_terms().load(dof).proportional;
+      rate += structure->reaction(state, dof) * structure->held_rate(dof);
+      rate -= load_rate * structure->value(state, dof);
     }
     const double step = 1e-3;
     const auto energy = [&](double lambda) {
@@ -301,12 +300,12 @@ struct SprungCantilever {
 
   static StructureBuilder builder() {
     StructureBuilder builder = plain_beam({Theory::euler_bernoulli, 2}, 1000.0, EI, L, 6);
-    builder.fix(builder.freedom(0, Freedom::x));
-    builder.fix(builder.freedom(0, Freedom::z));
+    builder.fix(builder.dof(0, Dof::x));
+    builder.fix(builder.dof(0, Dof::z));
     builder.add_ground_stiffness(builder.shared_rotation(0).value(), root);
-    builder.add_ground_stiffness(builder.freedom(1, Freedom::z), 0.5 * tip);
-    builder.add_ground_stiffness(builder.freedom(1, Freedom::z), 0.5 * tip);  // they add
-    builder.add_load(builder.freedom(1, Freedom::z), P, LoadKind::proportional);
+    builder.add_ground_stiffness(builder.dof(1, Dof::z), 0.5 * tip);
+    builder.add_ground_stiffness(builder.dof(1, Dof::z), 0.5 * tip);  // they add
+    builder.add_load(builder.dof(1, Dof::z), P, LoadKind::proportional);
     return builder;
   }
   static double deflection() { return P / (tip + 1.0 / (L * L * L / (3.0 * EI) + L * L / root)); }
@@ -318,17 +317,17 @@ TEST(GroundStiffness, SharesTheLoadOfACantilever) {
   const auto structure = SprungCantilever::builder().build();
   const State loaded = test::solved_at(*structure, rest(*structure), 1.0, 1);
   const double w = SprungCantilever::deflection();
-  EXPECT_NEAR(structure->value(loaded, structure->freedom(1, Freedom::z)), w, 1e-8 * w);
+  EXPECT_NEAR(structure->value(loaded, structure->dof(1, Dof::z)), w, 1e-8 * w);
   const double carried = SprungCantilever::P - SprungCantilever::tip * w;
-  EXPECT_NEAR(structure->reaction(loaded, structure->freedom(0, Freedom::z)), -carried, 1e-8 * SprungCantilever::P);
-  EXPECT_EQ(structure->reaction(loaded, structure->freedom(1, Freedom::z)), 0.0) << "a spring is no support";
+  EXPECT_NEAR(structure->reaction(loaded, structure->dof(0, Dof::z)), -carried, 1e-8 * SprungCantilever::P);
+  EXPECT_EQ(structure->reaction(loaded, structure->dof(1, Dof::z)), 0.0) << "a spring is no support";
 }
 
 TEST(GroundStiffness, SharesTheLoadWhereTheMeshSlides) {
   const test::SlidingModel model(SprungCantilever::builder(), {}, 0.1);
   const State loaded = test::solved_at(model.system(), model.system().rest(), 1.0, 1);
   const double w = SprungCantilever::deflection();
-  EXPECT_NEAR(model.joint(1, Freedom::z)->value(loaded), w, 1e-8 * w);
+  EXPECT_NEAR(model.joint(1, Dof::z)->value(loaded), w, 1e-8 * w);
 }
 
 TEST(GroundStiffness, IsListedBesideK) {
@@ -339,12 +338,12 @@ TEST(GroundStiffness, IsListedBesideK) {
     double at_tip = 0.0, at_root = 0.0;
     for (const GroundTerm& term : now.ground) {
       EXPECT_EQ(term.row, term.column);
-      (structure->meaning(term.row).freedom == Freedom::z ? at_tip : at_root) += term.stiffness;
+      (structure->meaning(term.row).dof == Dof::z ? at_tip : at_root) += term.stiffness;
     }
     EXPECT_EQ(at_tip, SprungCantilever::tip);
     EXPECT_EQ(at_root, SprungCantilever::root);
   }
-  const Index tip = structure->unknown(structure->freedom(1, Freedom::x)).value();
+  const Index tip = structure->unknown(structure->dof(1, Dof::x)).value();
   EXPECT_TRUE(now.translation_free[static_cast<std::size_t>(tip)]);
 }
 
@@ -354,14 +353,14 @@ TEST(GroundStiffness, KeepsItsDigitsOnALongChain) {
   const int elements = 40000;
   for (const bool on_springs : {false, true}) {
     StructureBuilder builder = plain_beam({Theory::euler_bernoulli, 2}, 12.0, 1.0, 1.0, elements);
-    const Index middle = builder.freedom(builder.mesh(0).nodes[elements / 2], Freedom::z);
+    const Index middle = builder.dof(builder.mesh(0).nodes[elements / 2], Dof::z);
     const double k = 20.0;
     if (on_springs) {
-      for (const Index joint : {0, 1}) builder.add_ground_stiffness(builder.freedom(joint, Freedom::z), k);
-      builder.add_ground_stiffness(builder.freedom(0, Freedom::x), k);
+      for (const Index joint : {0, 1}) builder.add_ground_stiffness(builder.dof(joint, Dof::z), k);
+      builder.add_ground_stiffness(builder.dof(0, Dof::x), k);
     } else {
-      for (const Index joint : {0, 1}) builder.fix(builder.freedom(joint, Freedom::z));
-      builder.fix(builder.freedom(0, Freedom::x));
+      for (const Index joint : {0, 1}) builder.fix(builder.dof(joint, Dof::z));
+      builder.fix(builder.dof(0, Dof::x));
       builder.add_ground_stiffness(middle, k);
     }
     builder.add_load(middle, 1.0, LoadKind::proportional);
@@ -377,7 +376,7 @@ TEST(GroundStiffness, KeepsItsDigitsOnALongChain) {
   }
 }
 
-// --- springs between freedoms
+// --- springs between degrees of freedom
 // -----------------------------------------------------------------------------------------
 
 namespace {
@@ -401,8 +400,8 @@ struct JoinedCantilevers {
                           .elements = 4});
       clamp(builder, from);
     }
-    builder.add_spring(builder.freedom(1, Freedom::z), builder.freedom(3, Freedom::z), k);
-    builder.add_load(builder.freedom(3, Freedom::z), P, LoadKind::proportional);
+    builder.add_spring(builder.dof(1, Dof::z), builder.dof(3, Dof::z), k);
+    builder.add_load(builder.dof(3, Dof::z), P, LoadKind::proportional);
     return builder;
   }
 };
@@ -416,12 +415,12 @@ TEST(SpringBetween, SharesTheLoadOfTwoCantilevers) {
   const double upper = Two::P / (c + behind), lower = upper * behind / c;
   const auto structure = Two::builder().build();
   const State loaded = test::solved_at(*structure, rest(*structure), 1.0, 1);
-  EXPECT_NEAR(structure->value(loaded, structure->freedom(3, Freedom::z)), upper, 1e-8 * upper);
-  EXPECT_NEAR(structure->value(loaded, structure->freedom(1, Freedom::z)), lower, 1e-8 * upper);
-  EXPECT_NEAR(structure->reaction(loaded, structure->freedom(0, Freedom::z)), -c * lower, 1e-8 * Two::P);
+  EXPECT_NEAR(structure->value(loaded, structure->dof(3, Dof::z)), upper, 1e-8 * upper);
+  EXPECT_NEAR(structure->value(loaded, structure->dof(1, Dof::z)), lower, 1e-8 * upper);
+  EXPECT_NEAR(structure->reaction(loaded, structure->dof(0, Dof::z)), -c * lower, 1e-8 * Two::P);
   const test::SlidingModel model(Two::builder(), {}, 0.1);
   const State slid = test::solved_at(model.system(), model.system().rest(), 1.0, 1);
-  EXPECT_NEAR(model.joint(1, Freedom::z)->value(slid), lower, 1e-8 * upper);
+  EXPECT_NEAR(model.joint(1, Dof::z)->value(slid), lower, 1e-8 * upper);
 }
 
 // A pointwise hinge with a spring: a beam whose halves are joined at a hinge by a spring for their rotations has the
@@ -439,16 +438,16 @@ TEST(SpringBetween, StiffensAHinge) {
                         .section = test::section_of(1000.0, EI),
                         .elements = 3,
                         .hinge_from = i == 1});
-  builder.fix(builder.freedom(0, Freedom::x));
-  for (const Index end : {0, 2}) builder.fix(builder.freedom(end, Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  for (const Index end : {0, 2}) builder.fix(builder.dof(end, Dof::z));
   EXPECT_TRUE(find_mechanism(*builder.build()).has_value());
   builder.add_spring(builder.mesh(0).rotations.back().value(), builder.mesh(1).rotations.front().value(), k);
   EXPECT_FALSE(find_mechanism(*builder.build()).has_value());
-  builder.add_load(builder.freedom(1, Freedom::z), P, LoadKind::proportional);
+  builder.add_load(builder.dof(1, Dof::z), P, LoadKind::proportional);
   const auto structure = builder.build();
   const State loaded = test::solved_at(*structure, rest(*structure), 1.0, 1);
   const double w = P * (L * L * L / (48.0 * EI) + L * L / (16.0 * k));
-  EXPECT_NEAR(structure->value(loaded, structure->freedom(1, Freedom::z)), w, 1e-8 * w);
+  EXPECT_NEAR(structure->value(loaded, structure->dof(1, Dof::z)), w, 1e-8 * w);
 }
 
 // --- the sliding mesh has the same terms ----------------------------------------------------------------------------
@@ -470,38 +469,38 @@ TEST(NodalTerms, AreThoseOfTheFixedMeshWhereItSlides) {
                           .order = 4,
                           .section = test::section_of(100.0, 2.0),
                           .elements = 8});
-    const auto inside = [&](Index member, std::size_t node, Freedom which) {
-      return builder.freedom(builder.mesh(member).nodes[node], which);
+    const auto inside = [&](Index member, std::size_t node, Dof which) {
+      return builder.dof(builder.mesh(member).nodes[node], which);
     };
-    builder.fix(builder.freedom(0, Freedom::x), {.proportional = 0.2});
-    builder.fix(builder.freedom(0, Freedom::z), {.constant = 0.1});
+    builder.fix(builder.dof(0, Dof::x), {.proportional = 0.2});
+    builder.fix(builder.dof(0, Dof::z), {.constant = 0.1});
     builder.fix(builder.shared_rotation(0).value(), {.proportional = -0.3});
-    builder.fix(builder.freedom(2, Freedom::z), {.constant = 0.05, .proportional = -0.4});
-    builder.fix(inside(1, 3, Freedom::z), {.proportional = 0.15});
-    builder.add_ground_stiffness(inside(0, 4, Freedom::x), 0.8);
-    builder.add_ground_stiffness(builder.freedom(2, Freedom::x), 0.4);
-    builder.add_ground_stiffness(builder.freedom(2, Freedom::z), 0.4);
-    builder.add_spring(builder.freedom(0, Freedom::z), builder.freedom(2, Freedom::x), 0.2);
-    builder.add_spring(inside(0, 6, Freedom::x), inside(1, 2, Freedom::x), 0.3);
+    builder.fix(builder.dof(2, Dof::z), {.constant = 0.05, .proportional = -0.4});
+    builder.fix(inside(1, 3, Dof::z), {.proportional = 0.15});
+    builder.add_ground_stiffness(inside(0, 4, Dof::x), 0.8);
+    builder.add_ground_stiffness(builder.dof(2, Dof::x), 0.4);
+    builder.add_ground_stiffness(builder.dof(2, Dof::z), 0.4);
+    builder.add_spring(builder.dof(0, Dof::z), builder.dof(2, Dof::x), 0.2);
+    builder.add_spring(inside(0, 6, Dof::x), inside(1, 2, Dof::x), 0.3);
     builder.add_foundation(1, {0.1, 0.2});
-    builder.add_load(builder.freedom(1, Freedom::x), 0.3, LoadKind::proportional);
-    builder.add_load(builder.freedom(2, Freedom::z), 0.1, LoadKind::constant);
+    builder.add_load(builder.dof(1, Dof::x), 0.3, LoadKind::proportional);
+    builder.add_load(builder.dof(2, Dof::z), 0.1, LoadKind::constant);
     builder.add_distributed_load(1, {0.0, -0.1}, LoadKind::proportional);
     const auto fixed = builder.build();
     const test::SlidingModel model(builder, {}, 0.1);
     const SlidingContact& sliding = model.system();
     const State tied = test::solved_at(*fixed, rest(*fixed), 1.0, 5);
     const State slid = test::solved_at(sliding, sliding.rest(), 1.0, 5);
-    for (const Index freedom : {fixed->freedom(1, Freedom::x), fixed->freedom(1, Freedom::z),
-                                fixed->freedom(2, Freedom::x), fixed->freedom(2, Freedom::z)}) {
-      const JointObservable motion(model.structure(), freedom, JointObservable::What::motion);
-      EXPECT_NEAR(motion.value(slid), fixed->value(tied, freedom), 1e-9);
+    for (const Index dof :
+         {fixed->dof(1, Dof::x), fixed->dof(1, Dof::z), fixed->dof(2, Dof::x), fixed->dof(2, Dof::z)}) {
+      const JointObservable motion(model.structure(), dof, JointObservable::What::motion);
+      EXPECT_NEAR(motion.value(slid), fixed->value(tied, dof), 1e-9);
       EXPECT_LE(check_gradient(motion, slid), 1e-8);
     }
-    for (const Index freedom : {fixed->freedom(0, Freedom::x), fixed->freedom(0, Freedom::z),
-                                fixed->freedom(2, Freedom::z), inside(1, 3, Freedom::z)}) {
-      const JointObservable reaction(model.structure(), freedom, JointObservable::What::reaction);
-      EXPECT_NEAR(reaction.value(slid), fixed->reaction(tied, freedom), 1e-8);
+    for (const Index dof :
+         {fixed->dof(0, Dof::x), fixed->dof(0, Dof::z), fixed->dof(2, Dof::z), inside(1, 3, Dof::z)}) {
+      const JointObservable reaction(model.structure(), dof, JointObservable::What::reaction);
+      EXPECT_NEAR(reaction.value(slid), fixed->reaction(tied, dof), 1e-8);
       EXPECT_GE(std::abs(reaction.value(slid)), 1e-3);
       EXPECT_LE(check_gradient(reaction, slid), 1e-7);
     }
@@ -526,7 +525,8 @@ TEST(NodalTerms, AreThoseOfTheFixedMeshWhereItSlides) {
 
 namespace {
 
-// A spring between two freedoms that λ shortens, and that hardens with λ: V = ½ k (d − λ c)² + ¼ λ q d⁴, d = u₁ − u₀.
+// A spring between two degrees of freedom that λ shortens, and that hardens with λ: V = ½ k (d − λ c)² + ¼ λ q d⁴, d =
+// u₁ − u₀.
 class Actuator final : public DrivenElement {
  public:
   Actuator(double k, double c, double q) : k_(k), c_(c), q_(q) {}
@@ -555,8 +555,7 @@ class Actuator final : public DrivenElement {
 StructureBuilder pulled_cantilever(double q, double EI, double L) {
   StructureBuilder builder = plain_beam({Theory::euler_bernoulli, 2}, 1000.0, EI, L, 5);
   clamp(builder, 0);
-  builder.add_element(std::make_shared<Actuator>(2.0, 1e-5, q),
-                      {builder.freedom(0, Freedom::z), builder.freedom(1, Freedom::z)});
+  builder.add_element(std::make_shared<Actuator>(2.0, 1e-5, q), {builder.dof(0, Dof::z), builder.dof(1, Dof::z)});
   return builder;
 }
 
@@ -564,13 +563,13 @@ StructureBuilder pulled_cantilever(double q, double EI, double L) {
 
 TEST(DrivenElement, HasItsPartOfEveryDerivative) {
   StructureBuilder builder = pulled_cantilever(3.0, 3.0, 2.0);
-  builder.fix(builder.freedom(0, Freedom::z), {.constant = 0.1, .proportional = 0.2});
+  builder.fix(builder.dof(0, Dof::z), {.constant = 0.1, .proportional = 0.2});
   const auto structure = builder.build();
   test::Numbers numbers(86);
   for (int i = 0; i < 3; ++i) {
     const State state{.x = 0.2 * numbers.vector(structure->size({})), .lambda = numbers()};
     EXPECT_LE(check_derivatives(*structure, state).worst(), 1e-9);
-    const ReactionObservable reaction(*structure, structure->freedom(0, Freedom::z));
+    const ReactionObservable reaction(*structure, structure->dof(0, Dof::z));
     EXPECT_LE(check_gradient(reaction, state), 1e-9);
   }
 }
@@ -582,8 +581,8 @@ TEST(DrivenElement, PullsTheTipOfACantilever) {
   const auto structure = pulled_cantilever(0.0, EI, L).build();
   const State pulled = test::solved_at(*structure, rest(*structure), 0.7, 1);
   const double w = 2.0 * 0.7e-5 / (beam + 2.0);
-  EXPECT_NEAR(structure->value(pulled, structure->freedom(1, Freedom::z)), w, 1e-8 * w);
-  EXPECT_NEAR(structure->reaction(pulled, structure->freedom(0, Freedom::z)), 0.0, 1e-8 * w) << "it is inside";
+  EXPECT_NEAR(structure->value(pulled, structure->dof(1, Dof::z)), w, 1e-8 * w);
+  EXPECT_NEAR(structure->reaction(pulled, structure->dof(0, Dof::z)), 0.0, 1e-8 * w) << "it is inside";
 }
 
 TEST(DrivenElement, IsNotForMeshesThatSlide) {

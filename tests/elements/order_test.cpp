@@ -46,11 +46,11 @@ std::unique_ptr<Structure> loaded_cantilever(std::unique_ptr<Axis> axis, std::ve
                       .order = beam.order,
                       .section = {.E = 1.0, .A = EA, .I = 1.0},
                       .elements = elements});
-  for (const Freedom which : {Freedom::x, Freedom::z}) {
-    const int i = which == Freedom::x ? 0 : 1;
-    builder.fix(builder.freedom(root, which));
-    builder.add_load(builder.freedom(tip, which), constant[i], LoadKind::constant);
-    builder.add_load(builder.freedom(tip, which), varying[i], LoadKind::proportional);
+  for (const Dof which : {Dof::x, Dof::z}) {
+    const int i = which == Dof::x ? 0 : 1;
+    builder.fix(builder.dof(root, which));
+    builder.add_load(builder.dof(tip, which), constant[i], LoadKind::constant);
+    builder.add_load(builder.dof(tip, which), varying[i], LoadKind::proportional);
   }
   builder.fix(builder.shared_rotation(root).value());
   return builder.build();
@@ -325,8 +325,8 @@ TEST(ElasticaOrderOfConvergence, CantileverUnderADistributedLoad) {
                                                .order = order,
                                                .section = {.E = 1.0, .A = EA, .I = 1.0},
                                                .elements = elements});
-      builder.fix(builder.freedom(root, Freedom::x));
-      builder.fix(builder.freedom(root, Freedom::z));
+      builder.fix(builder.dof(root, Dof::x));
+      builder.fix(builder.dof(root, Dof::z));
       builder.fix(builder.shared_rotation(root).value());
       builder.add_distributed_load(member, q, LoadKind::proportional);
       const auto structure = builder.build();

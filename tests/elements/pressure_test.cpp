@@ -133,24 +133,24 @@ TEST(Pressure, HasAPotentialWhereItsEndsAreHeldInOneDirection) {
   for (const test::BeamTheory& theory : theories)
     for (const bool x_is_free : {true, false}) {
       StructureBuilder builder = arch(theory, 2, 20.0);
-      builder.fix(builder.freedom(0, Freedom::x), {.constant = 0.1, .proportional = 0.3});
-      builder.fix(builder.freedom(0, Freedom::z));
+      builder.fix(builder.dof(0, Dof::x), {.constant = 0.1, .proportional = 0.3});
+      builder.fix(builder.dof(0, Dof::z));
       EXPECT_EQ(builder.open_pressed_joint(), std::optional<Index>(2));
-      builder.fix(builder.freedom(2, x_is_free ? Freedom::z : Freedom::x), {.constant = 0.2, .proportional = -0.4});
+      builder.fix(builder.dof(2, x_is_free ? Dof::z : Dof::x), {.constant = 0.2, .proportional = -0.4});
       EXPECT_FALSE(builder.open_pressed_joint().has_value());
       const auto structure = builder.build();
       const State state{.x = 0.05 * numbers.vector(structure->size({})), .lambda = 0.7};
       EXPECT_LE(check_derivatives(*structure, state).worst(), 1e-8);
-      for (const Freedom which : {Freedom::x, Freedom::z}) {
-        const Index freedom = structure->freedom(2, which);
-        if (structure->unknown(freedom)) continue;
-        const Row row = structure->reaction_gradient(state, freedom);
+      for (const Dof which : {Dof::x, Dof::z}) {
+        const Index dof = structure->dof(2, which);
+        if (structure->unknown(dof)) continue;
+        const Row row = structure->reaction_gradient(state, dof);
         constexpr double step = 1e-5;
         for (Index i = 0; i <= state.x.size(); ++i) {
           const auto at = [&](double by) {
             State moved = state;
             (i < state.x.size() ? moved.x[i] : moved.lambda) += by;
-            return structure->reaction(moved, freedom);
+            return structure->reaction(moved, dof);
           };
           const double found = i < state.x.size() ? row.dx[i] : row.dlambda;
           EXPECT_NEAR((at(step) - at(-step)) / (2.0 * step), found, 1e-6 * (1.0 + std::abs(found)));
@@ -163,19 +163,19 @@ TEST(Pressure, HasAPotentialWhereItsEndsAreHeldInOneDirection) {
 TEST(Pressure, IsBorneByTheSupports) {
   for (const bool x_is_free : {true, false}) {
     StructureBuilder builder = arch({.theory = Theory::elastica, .order = 6}, 4);
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(0, which));
-    builder.fix(builder.freedom(2, Freedom::z));
-    if (!x_is_free) builder.fix(builder.freedom(2, Freedom::x));
+    for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(0, which));
+    builder.fix(builder.dof(2, Dof::z));
+    if (!x_is_free) builder.fix(builder.dof(2, Dof::x));
     const auto structure = builder.build();
     const double p = x_is_free ? 0.2 : 1.0;
     const State state = test::solved_at(*structure, {.x = Vector::Zero(structure->size({}))}, p, 4);
-    const auto reaction = [&](Index joint, Freedom which) {
-      return structure->reaction(state, structure->freedom(joint, which));
+    const auto reaction = [&](Index joint, Dof which) {
+      return structure->reaction(state, structure->dof(joint, which));
     };
     const double width = (structure->current(state, 2) - structure->current(state, 0)).x();
-    EXPECT_NEAR(reaction(0, Freedom::x) + reaction(2, Freedom::x), 0.0, 1e-9);
-    EXPECT_NEAR(reaction(0, Freedom::z) + reaction(2, Freedom::z), p * width, 1e-9);
-    EXPECT_NEAR(reaction(0, Freedom::z), 0.5 * p * width, 1e-9);
+    EXPECT_NEAR(reaction(0, Dof::x) + reaction(2, Dof::x), 0.0, 1e-9);
+    EXPECT_NEAR(reaction(0, Dof::z) + reaction(2, Dof::z), p * width, 1e-9);
+    EXPECT_NEAR(reaction(0, Dof::z), 0.5 * p * width, 1e-9);
   }
 }
 

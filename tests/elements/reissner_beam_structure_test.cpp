@@ -42,10 +42,10 @@ struct Cantilever {
                                              .order = order,
                                              .section = section(stiffness),
                                              .elements = elements});
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(root, which));
+    for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(root, which));
     builder.fix(builder.shared_rotation(root).value());
-    builder.add_load(builder.freedom(tip, Freedom::x), tip_force.x(), LoadKind::proportional);
-    builder.add_load(builder.freedom(tip, Freedom::z), tip_force.y(), LoadKind::proportional);
+    builder.add_load(builder.dof(tip, Dof::x), tip_force.x(), LoadKind::proportional);
+    builder.add_load(builder.dof(tip, Dof::z), tip_force.y(), LoadKind::proportional);
     builder.add_load(builder.shared_rotation(tip).value(), tip_moment, LoadKind::proportional);
     if (distributed != Vec2::Zero()) builder.add_distributed_load(member, distributed, LoadKind::proportional);
     return builder.build();
@@ -185,7 +185,7 @@ TEST(ExactBeamStructure, MiddleNodesAreNodesOfTheStructureButNotOfTheMesh) {
   const Vector weights = second->weights({});
   double translation = 0.0, rotation = 0.0;
   for (Index i = 0; i < weights.size(); ++i)
-    (second->meaning(i).freedom == Freedom::rotation ? rotation : translation) += weights[i];
+    (second->meaning(i).dof == Dof::rotation ? rotation : translation) += weights[i];
   EXPECT_NEAR(rotation, 8.0 / 9.0, 1e-15);
   EXPECT_NEAR(translation, 2.0 * 8.0 / 9.0, 1e-14);
   // Unknowns are numbered along the member, so the stiffness is a band.
@@ -205,8 +205,8 @@ TEST(ExactBeamStructure, ReactionsBalanceTheLoads) {
                           .distributed = {0.5, -1.0}};
     const auto structure = beam.straight();
     const State state = solved(*structure, 1.5, 3);
-    EXPECT_NEAR(structure->reaction(state, structure->freedom(0, Freedom::x)), -1.5 * (0.3 + 0.5), 1e-12);
-    EXPECT_NEAR(structure->reaction(state, structure->freedom(0, Freedom::z)), -1.5 * (-0.4 - 1.0), 1e-12);
+    EXPECT_NEAR(structure->reaction(state, structure->dof(0, Dof::x)), -1.5 * (0.3 + 0.5), 1e-12);
+    EXPECT_NEAR(structure->reaction(state, structure->dof(0, Dof::z)), -1.5 * (-0.4 - 1.0), 1e-12);
     // Moments about the clamped end at the origin, of the loads where they are now.
     const Vec2 end = structure->current(state, tip);
     double moment = 1.5 * (0.2 + end.x() * -0.4 - end.y() * 0.3);
@@ -239,9 +239,9 @@ TEST(ExactBeamStructure, MechanismsAreFoundHoweverThinAndFine) {
                             .order = order,
                             .section = section({.EA = 1.0, .GA = 0.3, .EI = thickness * thickness / 12.0}),
                             .elements = order == 1 ? 1 : 40});
-        builder.fix(builder.freedom(left, Freedom::x));
-        builder.fix(builder.freedom(left, Freedom::z));
-        if (!rolls) builder.fix(builder.freedom(right, Freedom::z));
+        builder.fix(builder.dof(left, Dof::x));
+        builder.fix(builder.dof(left, Dof::z));
+        if (!rolls) builder.fix(builder.dof(right, Dof::z));
         const auto mechanism = find_mechanism(*builder.build());
         EXPECT_EQ(mechanism.has_value(), rolls) << "thickness " << thickness << " order " << order;
       }

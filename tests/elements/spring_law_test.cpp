@@ -61,7 +61,8 @@ TEST(SpringLaw, DoesNotOvershoot) {
   }
 }
 
-// Springs to the ground and between freedoms, one of which a support moves, are part of the structure's derivatives.
+// Springs to the ground and between degrees of freedom, one of which a support moves, are part of the structure's
+// derivatives.
 TEST(SpringLaw, BelongsToAStructure) {
   test::Numbers numbers(151);
   StructureBuilder builder;
@@ -76,17 +77,17 @@ TEST(SpringLaw, BelongsToAStructure) {
          .axis = straight_axis(m == 0 ? Vec2(0.0, 0.0) : Vec2(1.0, 0.0), m == 0 ? Vec2(1.0, 0.0) : Vec2(2.0, 0.3)),
          .section = test::section_of(20.0, 1.0),
          .elements = 2});
-  for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(0, which));
-  builder.fix(builder.freedom(2, Freedom::z), {.proportional = 0.3});
+  for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(0, which));
+  builder.fix(builder.dof(2, Dof::z), {.proportional = 0.3});
   const auto law = std::make_shared<const SpringLaw>(uneven);
-  builder.add_spring(std::nullopt, builder.freedom(1, Freedom::z), law);
-  builder.add_spring(builder.freedom(0, Freedom::z), builder.freedom(2, Freedom::z), law);
-  builder.add_spring(builder.freedom(1, Freedom::x), builder.freedom(2, Freedom::x), law);
-  builder.add_spring(builder.freedom(1, Freedom::z), builder.freedom(2, Freedom::z), law);
+  builder.add_spring(std::nullopt, builder.dof(1, Dof::z), law);
+  builder.add_spring(builder.dof(0, Dof::z), builder.dof(2, Dof::z), law);
+  builder.add_spring(builder.dof(1, Dof::x), builder.dof(2, Dof::x), law);
+  builder.add_spring(builder.dof(1, Dof::z), builder.dof(2, Dof::z), law);
   const auto structure = builder.build();
   const State state{.x = 0.05 * numbers.vector(structure->size({})), .lambda = 0.6};
   EXPECT_LE(check_derivatives(*structure, state).worst(), 1e-6);
-  const Index held = structure->freedom(2, Freedom::z);
+  const Index held = structure->dof(2, Dof::z);
   const Row row = structure->reaction_gradient(state, held);
   constexpr double step = 1e-6;
   for (Index i = 0; i <= state.x.size(); ++i) {
@@ -141,38 +142,38 @@ TEST(KinkedSprings, AreSmoothOnEachPiece) {
          .axis = straight_axis(m == 0 ? Vec2(0.0, 0.0) : Vec2(1.0, 0.0), m == 0 ? Vec2(1.0, 0.0) : Vec2(2.0, 0.3)),
          .section = test::section_of(20.0, 1.0),
          .elements = 2});
-  for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(0, which));
-  builder.fix(builder.freedom(2, Freedom::z), {.proportional = 0.3});
-  const Index middle = builder.freedom(1, Freedom::z), end = builder.freedom(2, Freedom::z);
+  for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(0, which));
+  builder.fix(builder.dof(2, Dof::z), {.proportional = 0.3});
+  const Index middle = builder.dof(1, Dof::z), end = builder.dof(2, Dof::z);
   const auto law = std::make_shared<const SpringLaw>(std::vector<double>{-0.05, -0.02, 0.0, 0.02, 0.05},
                                                      std::vector<double>{-0.5, -0.4, 0.0, 0.2, 0.1},
                                                      SpringLaw::Interpolation::linear);
   builder.add_spring(std::nullopt, middle, law);
   builder.add_spring(middle, end, law);
   const auto structure = builder.build();
-  const auto motion = [&](Index freedom) { return std::make_shared<FreedomObservable>(*structure, freedom); };
+  const auto motion = [&](Index dof) { return std::make_shared<DofObservable>(*structure, dof); };
   const KinkedSprings system(*structure, {{.law = law, .first = nullptr, .second = motion(middle)},
                                           {.law = law, .first = motion(middle), .second = motion(end)}});
-  const Piece open = system.open_piece();
+  const ActiveSet open = system.open_active_set();
   ASSERT_EQ(open.kinks(), 10u);
   EXPECT_EQ(open.contacts(), 0u);
   for (int i = 0; i < 20; ++i) {
-    State state{.x = 0.05 * numbers.vector(structure->size({})), .lambda = 0.2, .piece = open};
+    State state{.x = 0.05 * numbers.vector(structure->size({})), .lambda = 0.2, .active_set = open};
     Vector F(state.x.size()), of_structure(state.x.size());
-    const State by_stretch = system.with_kinks({.x = state.x, .lambda = state.lambda, .piece = {}});
+    const State by_stretch = system.with_kinks({.x = state.x, .lambda = state.lambda, .active_set = {}});
     EXPECT_GE(system.guards(by_stretch).minCoeff(), 0.0);
     system.residual(by_stretch, F);
     structure->residual(by_stretch, of_structure);
     EXPECT_EQ(F, of_structure);
-    for (std::size_t j = 0; j < state.piece.size(); ++j) state.piece[j] = numbers() < 0.0 ? 1 : 0;
+    for (std::size_t j = 0; j < state.active_set.size(); ++j) state.active_set[j] = numbers() < 0.0 ? 1 : 0;
     EXPECT_LE(check_derivatives(system, state).worst(), 1e-6);
     for (Index j = 0; j < system.guard_count(open); ++j) {
       EXPECT_DOUBLE_EQ(system.guard(state, j), system.guards(state)[j]);
       // By the force of one more guard the equations of a piece become those of the next.
-      Piece off = state.piece, on = state.piece;
+      ActiveSet off = state.active_set, on = state.active_set;
       off[static_cast<std::size_t>(j)] = 0;
       on[static_cast<std::size_t>(j)] = 1;
-      const State without = system.with_piece(state, off), with = system.with_piece(state, on);
+      const State without = system.with_active_set(state, off), with = system.with_active_set(state, on);
       Vector F_off(state.x.size()), F_on(state.x.size());
       system.residual(without, F_off);
       system.residual(with, F_on);

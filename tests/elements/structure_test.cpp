@@ -49,13 +49,13 @@ struct Everything {
                                           .strain = TrussStrain::log,
                                           .section = section});
     for (const Index node : {foot, end})
-      for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(node, which));
+      for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(node, which));
     builder.fix(builder.shared_rotation(foot).value());
-    builder.fix(builder.freedom(far, Freedom::x));  // a guide
-    builder.add_load(builder.freedom(corner, Freedom::x), 1.5, LoadKind::proportional);
-    builder.add_load(builder.freedom(builder.mesh(girder).nodes[2], Freedom::z), -0.7, LoadKind::constant);
+    builder.fix(builder.dof(far, Dof::x));  // a guide
+    builder.add_load(builder.dof(corner, Dof::x), 1.5, LoadKind::proportional);
+    builder.add_load(builder.dof(builder.mesh(girder).nodes[2], Dof::z), -0.7, LoadKind::constant);
     builder.add_load(builder.shared_rotation(corner).value(), 0.4, LoadKind::proportional);
-    builder.add_load(builder.freedom(end, Freedom::x), 0.3, LoadKind::proportional);  // on a support
+    builder.add_load(builder.dof(end, Dof::x), 0.3, LoadKind::proportional);  // on a support
     builder.add_distributed_load(column, {0.5, -0.2}, LoadKind::proportional);
     builder.add_distributed_load(girder, {0.1, -0.6}, LoadKind::constant);
     builder.add_distributed_load(bar, {0.2, 0.3}, LoadKind::proportional);
@@ -65,8 +65,8 @@ struct Everything {
 Vec2 reaction_sum(const Structure& structure, const State& state) {
   Vec2 sum = Vec2::Zero();
   for (Index node = 0; node < structure.node_count(); ++node)
-    sum += Vec2(structure.reaction(state, structure.freedom(node, Freedom::x)),
-                structure.reaction(state, structure.freedom(node, Freedom::z)));
+    sum += Vec2(structure.reaction(state, structure.dof(node, Dof::x)),
+                structure.reaction(state, structure.dof(node, Dof::z)));
   return sum;
 }
 
@@ -78,16 +78,16 @@ std::vector<Index> nodes_afloat(const Structure& structure) {
   const Matrix K = test::full(now.K);
   Matrix motion = Matrix::Zero(K.rows(), 2);
   for (Index i = 0; i < K.rows(); ++i) {
-    const Freedom which = structure.meaning(i).freedom;
-    if (which == Freedom::x) motion(i, 0) = 1.0;
-    if (which == Freedom::z) motion(i, 1) = 1.0;
+    const Dof which = structure.meaning(i).dof;
+    if (which == Dof::x) motion(i, 0) = 1.0;
+    if (which == Dof::z) motion(i, 1) = 1.0;
   }
   std::vector<Index> nodes;
   for (Index i = 0; i < K.rows(); ++i) {
     if (!now.translation_free[static_cast<std::size_t>(i)]) continue;
     nodes.push_back(structure.meaning(i).node);
-    EXPECT_EQ(structure.unknown(structure.freedom(nodes.back(), Freedom::x)), i);
-    EXPECT_EQ(structure.unknown(structure.freedom(nodes.back(), Freedom::z)), i + 1);
+    EXPECT_EQ(structure.unknown(structure.dof(nodes.back(), Dof::x)), i);
+    EXPECT_EQ(structure.unknown(structure.dof(nodes.back(), Dof::z)), i + 1);
     EXPECT_LE((K.middleRows(i, 2) * motion).norm(), 1e-13 * K.middleRows(i, 2).norm());
   }
   return nodes;
@@ -131,8 +131,8 @@ TEST(Structure, ParallelMotionsExertNoForceWhateverTheTheory) {
                         .order = order,
                         .section = test::essenburg_section(100.0, 0.3, 0.2, 0.2),
                         .elements = 5});
-    for (const Index node : {first, last}) builder.fix(builder.freedom(node, Freedom::z));
-    builder.fix(builder.freedom(first, Freedom::x));
+    for (const Index node : {first, last}) builder.fix(builder.dof(node, Dof::z));
+    builder.fix(builder.dof(first, Dof::x));
     EXPECT_EQ(nodes_afloat(*builder.build()).size(), expected);
   }
 }
@@ -160,20 +160,20 @@ TEST(Structure, ReactionsBalanceMomentsInTheDeformedState) {
   const Vec2 tip = structure->current(bent, 1);
   const Index clamp = structure->members()[0].rotations[0].value();
   EXPECT_NEAR(structure->reaction(bent, clamp), -2.0 * tip.x(), 1e-10);
-  EXPECT_NEAR(structure->reaction(bent, structure->freedom(0, Freedom::z)), -2.0, 1e-10);
-  EXPECT_NEAR(structure->reaction(bent, structure->freedom(0, Freedom::x)), 0.0, 1e-10);
-  EXPECT_EQ(structure->reaction(bent, structure->freedom(1, Freedom::z)), 0.0) << "free";
+  EXPECT_NEAR(structure->reaction(bent, structure->dof(0, Dof::z)), -2.0, 1e-10);
+  EXPECT_NEAR(structure->reaction(bent, structure->dof(0, Dof::x)), 0.0, 1e-10);
+  EXPECT_EQ(structure->reaction(bent, structure->dof(1, Dof::z)), 0.0) << "free";
 }
 
-TEST(Structure, AHeldFreedomIsNoUnknownAndZero) {
+TEST(Structure, AHeldDofIsNoUnknownAndZero) {
   Everything model;
   const auto structure = model.builder.build();
-  const Index held = structure->freedom(model.foot, Freedom::x), free = structure->freedom(model.corner, Freedom::z);
+  const Index held = structure->dof(model.foot, Dof::x), free = structure->dof(model.corner, Dof::z);
   EXPECT_FALSE(structure->unknown(held).has_value());
   ASSERT_TRUE(structure->unknown(free).has_value());
   const auto meaning = structure->meaning(*structure->unknown(free));
   EXPECT_EQ(meaning.node, model.corner);
-  EXPECT_EQ(meaning.freedom, Freedom::z);
+  EXPECT_EQ(meaning.dof, Dof::z);
   const State state{.x = test::Numbers(31).vector(structure->size({}))};
   EXPECT_EQ(structure->value(state, held), 0.0);
   EXPECT_EQ(structure->value(state, free), state.x[*structure->unknown(free)]);
@@ -205,14 +205,14 @@ TEST(Structure, AHingeTransmitsNoMoment) {
                         .elements = 2,
                         .hinge_to = i == 0});
   for (const Index node : {0, 2})
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(node, which));
+    for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(node, which));
   builder.fix(builder.shared_rotation(0).value());
   builder.fix(builder.shared_rotation(2).value());
-  builder.add_load(builder.freedom(1, Freedom::z), -1e-6, LoadKind::proportional);
+  builder.add_load(builder.dof(1, Dof::z), -1e-6, LoadKind::proportional);
   const auto structure = builder.build();
   const State loaded = test::solved_at(*structure, {.x = Vector::Zero(structure->size({}))}, 1.0, 1);
   // Two cantilevers of length 1 share the force: w = −½ · 1e-6 · 1³/(3 EI), clamp moments ½ · 1e-6.
-  EXPECT_NEAR(structure->value(loaded, structure->freedom(1, Freedom::z)), -1e-6 / 6.0, 1e-12);
+  EXPECT_NEAR(structure->value(loaded, structure->dof(1, Dof::z)), -1e-6 / 6.0, 1e-12);
   EXPECT_NEAR(structure->reaction(loaded, structure->members()[0].rotations.front().value()), 0.5e-6, 1e-12);
 }
 
@@ -229,7 +229,8 @@ TEST(Structure, ARampAppliesTheConstantLoadsProportionallyAndNoOthers) {
 }
 
 TEST(Structure, WeightsDoNotDependOnTheUnitsOrTheNumberOfElements) {
-  // All nodes moved by (L, 0) and turned by 1 have the length √2 whatever the mesh: held freedoms count as zeros.
+  // All nodes moved by (L, 0) and turned by 1 have the length √2 whatever the mesh: held degrees of freedom count as
+  // zeros.
   for (const double unit : {1.0, 0.01})
     for (const int elements : {2, 20}) {
       StructureBuilder builder;
@@ -242,13 +243,13 @@ TEST(Structure, WeightsDoNotDependOnTheUnitsOrTheNumberOfElements) {
                           .axis = straight_axis(a, b),
                           .section = {.E = 1.0, .A = 1.0, .I = 1.0},
                           .elements = elements});
-      builder.add_load(builder.freedom(1, Freedom::x), 1.0, LoadKind::proportional);
+      builder.add_load(builder.dof(1, Dof::x), 1.0, LoadKind::proportional);
       const auto structure = builder.build();
       EXPECT_NEAR(structure->length_scale(), 5.0 * unit, 1e-15);
       Vector x = Vector::Zero(structure->size({}));
       for (Index i = 0; i < x.size(); ++i) {
-        const Freedom which = structure->meaning(i).freedom;
-        x[i] = which == Freedom::x ? 5.0 * unit : which == Freedom::rotation ? 1.0 : 0.0;
+        const Dof which = structure->meaning(i).dof;
+        x[i] = which == Dof::x ? 5.0 * unit : which == Dof::rotation ? 1.0 : 0.0;
       }
       EXPECT_NEAR((structure->weights({}).array() * x.array().square()).sum(), 2.0, 1e-13);
     }

@@ -35,8 +35,8 @@ Frame frame(Theory theory, int order) {
   };
   frame.first = add("first", 0, 1, foot, corner);
   frame.second = add("second", 1, 2, corner, end);
-  frame.builder.fix(frame.builder.freedom(0, Freedom::x));
-  frame.builder.fix(frame.builder.freedom(0, Freedom::z));
+  frame.builder.fix(frame.builder.dof(0, Dof::x));
+  frame.builder.fix(frame.builder.dof(0, Dof::z));
   return frame;
 }
 
@@ -72,7 +72,7 @@ double change_by_a_turn(const Equations& system, const State& state, const std::
 }
 
 State somewhere(const Structure& structure) {
-  State state{.x = Vector(structure.size({})), .lambda = 0.7, .piece = {}};
+  State state{.x = Vector(structure.size({})), .lambda = 0.7, .active_set = {}};
   for (Index i = 0; i < state.x.size(); ++i) state.x[i] = 0.1 * std::sin(3.0 * double(i) + 1.0);
   return state;
 }
@@ -120,9 +120,7 @@ TEST(TurningSets, LeaveOutWhatASpringOrASupportCounts) {
   builder.add_spring(corner, end, 0.3);
   const auto structure = builder.build();
   const std::vector<Index> sets = structure->turning_sets({});
-  const auto set_of = [&](Index freedom) {
-    return sets[static_cast<std::size_t>(structure->unknown(freedom).value())];
-  };
+  const auto set_of = [&](Index dof) { return sets[static_cast<std::size_t>(structure->unknown(dof).value())]; };
   EXPECT_EQ(set_of(foot), -1);
   EXPECT_EQ(set_of(corner), set_of(end));
   const State state = somewhere(*structure);

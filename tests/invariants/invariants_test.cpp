@@ -94,7 +94,7 @@ TEST(Invariants, SeeAWrongUnstableCount) {
 TEST(Invariants, SeeAContactThatPulls) {
   broken() = pressed();
   State& last = broken().arcs.back().to.state;
-  last = {.x = Vector{{1.0, 1.25, -0.5}}, .lambda = 0.5, .piece = {1}};
+  last = {.x = Vector{{1.0, 1.25, -0.5}}, .lambda = 0.5, .active_set = {1}};
   broken().arcs = {broken().arcs.back()};
   EXPECT_NONFATAL_FAILURE(expect_branch_invariants(springs(), broken(), until_two()), "pulls");
 }

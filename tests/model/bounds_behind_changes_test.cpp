@@ -1,5 +1,5 @@
-// Decks whose bounds and values to land on lie just behind a change of contact, where the first point of the next piece
-// is a finite stretch away. Two are from the survey of random decks, where such bounds were jumped over.
+// Decks whose bounds and values to land on lie just behind a change of contact, where the first point of the next
+// active set is a finite stretch away. Two are from the survey of random decks, where such bounds were jumped over.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -90,7 +90,8 @@ TEST(EssenburgModel, SupportsMayHoldTheThicknessAndMonitorsReadIt) {
   const Model held = model(replaced(column, R"(A = ["x", "z"])", R"(A = ["x", "z", "thickness", "thickness2"])"));
   EXPECT_EQ(held.structure().size({}), 40);
   const Model free = model(column);
-  State state{.x = Vector::Zero(free.system().size(free.system().open_piece())), .piece = free.system().open_piece()};
+  State state{.x = Vector::Zero(free.system().size(free.system().open_active_set())),
+              .active_set = free.system().open_active_set()};
   const MemberMesh& mesh = free.structure().members()[0];
   state.x[*free.structure().unknown(mesh.thickness[0].e)] = 0.25;
   state.x[*free.structure().unknown(mesh.thickness[2].xi)] = -3.0;
@@ -104,7 +105,7 @@ TEST(EssenburgModel, TheShearCorrectionIsOneUnlessGiven) {
     const Model of = model(text);
     Linearization rest;
     of.structure().linearize({.x = Vector::Zero(of.structure().size({}))}, rest);
-    const Index w = *of.structure().unknown(of.structure().freedom(of.structure().members()[0].nodes[1], Freedom::z));
+    const Index w = *of.structure().unknown(of.structure().dof(of.structure().members()[0].nodes[1], Dof::z));
     return rest.K.coeff(w, w);
   };
   const std::string given = replaced(column, "height = 0.1", "height = 0.1\nshear_correction = 0.5");

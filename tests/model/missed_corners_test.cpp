@@ -163,9 +163,9 @@ TEST(MissedCorners, AreNotMetAgainOnTheMeshOfTheNextContact) {
   }
 }
 
-// Behind a spreading, just before λ of that piece turns, a quarter of the first length led to another equilibrium, with
-// one direction less that gives way though λ goes on, and the path ran back into its start; finer meshes did not. The
-// symmetric path, on which the other half touches, by shooting, apart from this program.
+// Behind a spreading, just before λ of that active set turns, a quarter of the first length led to another equilibrium,
+// with one direction less that gives way though λ goes on, and the path ran back into its start; finer meshes did not.
+// The symmetric path, on which the other half touches, by shooting, apart from this program.
 TEST(MissedCorners, AreReachedByTheEquilibriumThatBeginsAtASpreading) {
   for (const int elements : {12, 16, 24}) {
     SCOPED_TRACE(elements);

@@ -171,7 +171,7 @@ TEST(Pinches, KnifeEdgesLetTheMemberTurnBetweenTheirFlanks) {
   EXPECT_EQ(end.reason, EndReason::not_modelled);
   EXPECT_NE(end.detail.find("over and under"), std::string::npos) << end.detail;
   const State& last = run.points().back().state;
-  const SlidingContactLayout& on = sliding_layout(last.piece);
+  const SlidingContactLayout& on = sliding_layout(last.active_set);
   const auto [strand, position] = on.mesh().breakpoint(0);
   const MeshState now{.x = last.x.head(on.mesh().unknowns()), .s = last.x.tail(1), .lambda = last.lambda};
   EXPECT_NEAR(std::abs(on.mesh().node(strand, position, now).angle), std::atan(0.2), 1e-6);
@@ -186,8 +186,8 @@ TEST_P(PinchesOfBothKinds, DerivativesAreConsistent) {
       column(0.4, "path = { step = 5.0, stop = { lambda = [-1.0, 1.0] } }", GetParam()), "deck.toml", {}));
   std::string reason;
   State state = *model.start(reason);
-  EXPECT_TRUE(model.system().is_two_sided(state.piece, 0));
-  EXPECT_EQ(state.piece.closed_count(), 1);
+  EXPECT_TRUE(model.system().is_two_sided(state.active_set, 0));
+  EXPECT_EQ(state.active_set.closed_count(), 1);
   for (Index i = 0; i + 1 < state.x.size(); ++i) state.x[i] += 1e-3 * std::sin(1.0 + 7.0 * double(i));
   state.lambda = 3.0;
   EXPECT_LE(check_derivatives(model.system(), state).worst(), 1e-6);

@@ -67,7 +67,7 @@ TEST(PitchforkAtACorner, IsAnEventWhereStabilityIsLostWithANewFlatPart) {
 TEST(PitchforkAtACorner, HasTheModeThatGivesWay) {
   const Session run = traced("0.0");
   const BranchPoint& pitchfork = *run.record().branch_points.front().point;
-  const Metric metric(run.model().system().weights(pitchfork.state.piece), 1.0);
+  const Metric metric(run.model().system().weights(pitchfork.state.active_set), 1.0);
   EXPECT_NEAR(metric.norm(pitchfork.mode), 1.0, 1e-9);
   const auto moves = [&](std::size_t monitor) {
     return apply(run.model().monitors()[monitor].quantity->gradient(pitchfork.state), pitchfork.mode);

@@ -153,8 +153,8 @@ TEST(ZeroClearance, DerivativesAreConsistentWithEveryLaw) {
     const Model model(deck::read_deck_text(column, "deck.toml", {law, sloped, "point.b = [1000.0, 100.0]"}));
     std::string reason;
     State state = *model.start(reason);
-    EXPECT_EQ(state.piece.closed_count(), 2 * 40);
-    EXPECT_EQ(model.system().multiplier_count(state.piece), 40);
+    EXPECT_EQ(state.active_set.closed_count(), 2 * 40);
+    EXPECT_EQ(model.system().multiplier_count(state.active_set), 40);
     for (Index i = 0; i < state.x.size(); ++i) state.x[i] = 0.01 * std::sin(1.0 + 7.0 * double(i));
     state.lambda = 3.0;
     EXPECT_LE(check_derivatives(model.system(), state).worst(), 1e-7);

@@ -19,9 +19,9 @@ int main() {
                         .axis = straight_axis(from, {0.0, rise}),
                         .theory = Theory::truss,
                         .section = {.E = EA, .A = 1.0}});
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(foot, which));
+    for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(foot, which));
   }
-  builder.add_load(builder.freedom(top, Freedom::z), -1.0, LoadKind::proportional);
+  builder.add_load(builder.dof(top, Dof::z), -1.0, LoadKind::proportional);
   const auto structure = builder.build();
 
   Tracer tracer(*structure, {.x = Vector::Zero(structure->size({}))}, {.step = {.first = 5.0}, .max_points = 40});

@@ -110,7 +110,7 @@ Way follow(Tracer& tracer, const IsThere& is_there) {
     way.greatest = std::max(way.greatest, std::abs(here.lambda));
     for (const Event& event : arc->events) {
       way.told << "\n  " << to_text(event.kind) << " at λ = " << round_trip(event.state.lambda) << ", "
-               << here.piece.closed_count() << " closed";
+               << here.active_set.closed_count() << " closed";
     }
     way.arrived = is_there(here);
     if (way.arrived) return way;

@@ -44,8 +44,8 @@ deck::Member& add_member(Deck& deck, const char* name, const char* from, const c
 }
 
 void support(Deck& deck, const char* point, bool clamped) {
-  deck.supports.push_back({.point = point, .directions = {Freedom::x, Freedom::z}});
-  if (clamped) deck.supports.back().directions.push_back(Freedom::rotation);
+  deck.supports.push_back({.point = point, .directions = {Dof::x, Dof::z}});
+  if (clamped) deck.supports.back().directions.push_back(Dof::rotation);
 }
 
 void load(Deck& deck, deck::Place at, double x, double z) {

@@ -23,7 +23,7 @@ using test::PathModel;
 using test::traced;
 
 PathModel path_of(std::unique_ptr<Structure> arch, double first_step, double lowest) {
-  const TargetValue stop = test::stop_at(*arch, 1, Freedom::z, lowest);
+  const TargetValue stop = test::stop_at(*arch, 1, Dof::z, lowest);
   return {.structure = std::move(arch), .first_step = first_step, .target_values = {stop}};
 }
 
@@ -44,7 +44,7 @@ PathModel shallow(int elements, const BeamTheory& beam = {}) {
 
 // Both branches of an arch that sways; of mirror images that on which the crown goes to the right.
 Graph swaying(const PathModel& arch, double to_the_right = 1.0) {
-  const auto u = test::displacement(*arch.structure, 1, Freedom::x);
+  const auto u = test::displacement(*arch.structure, 1, Dof::x);
   return test::explore(
       *arch.structure, arch.options(),
       {.policy = BranchPolicy::all, .depth = 1, .preference = {std::make_shared<ScaledObservable>(u, to_the_right)}});
@@ -155,7 +155,7 @@ TEST(ShallowArch, TheSecondBranchIsThatOfTheElasticaAndJoinsBothBranchPoints) {
                             {-600.0, 319.9530425641985, 4.800776337205812},
                             {-800.0, -305.643367241316, -2.4543188368638953}};
   for (const Sample& sample : samples)
-    model.target_values.push_back({.quantity = test::displacement(*model.structure, 1, Freedom::z), .value = sample.w});
+    model.target_values.push_back({.quantity = test::displacement(*model.structure, 1, Dof::z), .value = sample.w});
   const Graph graph = swaying(model);
   ASSERT_EQ(graph.records.size(), 2U);
   EXPECT_TRUE(graph.records[1].mirror_image);

@@ -18,7 +18,7 @@ using test::trace;
 constexpr double half_sine = 0.00176;
 
 double shortening(const test::ContactModel& model, const State& state) {
-  return -model.structure().value(state, model.structure().freedom(1, Freedom::x));
+  return -model.structure().value(state, model.structure().dof(1, Dof::x));
 }
 
 double middle(const test::ContactModel& model, const State& state) {

@@ -34,7 +34,7 @@ Bent elastica(double degrees) {
 std::shared_ptr<const Observable> rotation_at(const Structure& column, double fraction) {
   const MemberMesh& mesh = column.members()[0];
   const auto node = static_cast<std::size_t>(std::lround(fraction * double(mesh.nodes.size() - 1)));
-  return std::make_shared<FreedomObservable>(column, mesh.rotations[node].value());
+  return std::make_shared<DofObservable>(column, mesh.rotations[node].value());
 }
 
 // The buckled column where the rotation at `fraction` has these values, in degrees and rising. The last one ends it.
@@ -151,9 +151,9 @@ TEST(PinnedColumn, BucklesUnderASupportThatMoves) {
                       .axis = straight_axis({0.0, 0.0}, {1.0, 0.0}),
                       .section = test::section_of(EA, 1.0),
                       .elements = 40});
-  for (const Index joint : {0, 1}) builder.fix(builder.freedom(joint, Freedom::z));
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(1, Freedom::x), {.proportional = -1.0});
+  for (const Index joint : {0, 1}) builder.fix(builder.dof(joint, Dof::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(1, Dof::x), {.proportional = -1.0});
   const auto column = builder.build();
   const auto points = branch_points(*column, 0.02, 1e-3);
   ASSERT_EQ(points.size(), 1U);
@@ -162,7 +162,7 @@ TEST(PinnedColumn, BucklesUnderASupportThatMoves) {
   EXPECT_NEAR(points[0].state.lambda, shortening, by_element * shortening + 1e-12);
   EXPECT_EQ(points[0].branching->type, BranchType::pitchfork);
   EXPECT_EQ(points[0].unstable_after, 1);
-  const double reaction = column->reaction(points[0].state, column->freedom(1, Freedom::x));
+  const double reaction = column->reaction(points[0].state, column->dof(1, Dof::x));
   EXPECT_NEAR(reaction, -EA * points[0].state.lambda, 1e-9 * load);
 }
 

@@ -32,10 +32,10 @@ test::ContactModel strip(Theory theory, int order, int elements) {
                       .section = thick ? test::essenburg_section(1.2e7, 0.3, 1.0, 0.01)
                                        : Section{.E = 1.0, .A = 1.2e5, .I = 1.0, .G = 1.0, .shear_area = 4e4},
                       .elements = elements});
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
   builder.fix(builder.shared_rotation(0).value());
-  builder.add_load(builder.freedom(1, Freedom::z), -1.0, LoadKind::proportional);
+  builder.add_load(builder.dof(1, Dof::z), -1.0, LoadKind::proportional);
   return {builder.build(),
           {{.name = "cylinder",
             .side = Side::below,
@@ -51,7 +51,7 @@ struct Wrapped {
 Wrapped wrapped_at(const test::ContactModel& model, const State& state) {
   Wrapped found{.turn = -model.structure().value(state, *model.structure().members()[0].rotations.back()), .angle = 0};
   for (Index j = 0; j < model.system().contact_count(); ++j)
-    if (state.piece[static_cast<std::size_t>(j)])
+    if (state.active_set[static_cast<std::size_t>(j)])
       found.angle = std::max(found.angle, length * model.system().candidate(j).label().fraction);
   return found;
 }
@@ -115,9 +115,9 @@ TEST(ClassicBeamOnAParabola, ConformsToIt) {
                       .axis = straight_axis(middle, end),
                       .section = {.E = 21000.0, .A = h * h, .I = EI / 21000.0, .height = h},
                       .elements = elements});
-  builder.fix(builder.freedom(0, Freedom::x));
+  builder.fix(builder.dof(0, Dof::x));
   builder.fix(builder.shared_rotation(0).value());
-  builder.fix(builder.freedom(1, Freedom::z));
+  builder.fix(builder.dof(1, Dof::z));
   builder.add_load(builder.shared_rotation(1).value(), 1e-3, LoadKind::proportional);
   const test::ContactModel model(
       builder.build(), {{.name = "wall", .side = Side::below, .profile = parabola_profile({0.0, -0.5 * h - d}, k)}},
@@ -131,7 +131,8 @@ TEST(ClassicBeamOnAParabola, ConformsToIt) {
   double edge = 0.0, force = 0.0;
   for (Index j = 0; j < model.system().contact_count(); ++j) {
     force += model.system().force(state, j);
-    if (state.piece[static_cast<std::size_t>(j)]) edge = std::max(edge, model.system().candidate(j).label().fraction);
+    if (state.active_set[static_cast<std::size_t>(j)])
+      edge = std::max(edge, model.system().candidate(j).label().fraction);
   }
   const double bending = 5e-3 - EI * k, free = std::sqrt(6.0 * EI * (d - 0.5 * k) / bending);
   EXPECT_NEAR(edge, 1.0 - free, 1.01 / elements);

@@ -21,7 +21,7 @@ BeamTheory order_six() {
 }
 
 PathModel path_of(std::unique_ptr<Structure> structure, Index loaded, double first_step, double lowest) {
-  const TargetValue stop = test::stop_at(*structure, loaded, Freedom::z, lowest);
+  const TargetValue stop = test::stop_at(*structure, loaded, Dof::z, lowest);
   return {.structure = std::move(structure), .loaded = loaded, .first_step = first_step, .target_values = {stop}};
 }
 

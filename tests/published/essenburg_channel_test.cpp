@@ -131,7 +131,7 @@ TEST(EssenburgChannel, MiddleAtTheLoadsOfTable2Slow) {
   options.step.first = 0.05;
   for (const double P : {0.415, 0.5, 1.75, 5.0, 7.0, 8.0})
     options.target_values.push_back({.quantity = std::make_shared<ParameterValue>(), .value = P});
-  options.target_values.push_back(test::stop_at(model.structure(), 1, Freedom::x, -0.6203));
+  options.target_values.push_back(test::stop_at(model.structure(), 1, Dof::x, -0.6203));
   const test::Branch branch = test::trace(model.system(), options);
   const auto heights = [&](double P) {
     std::vector<double> found;
@@ -143,7 +143,7 @@ TEST(EssenburgChannel, MiddleAtTheLoadsOfTable2Slow) {
   for (const Listed& row : below) EXPECT_NEAR(heights(row.P).back(), row.axis, row.tolerance) << row.P;
   const State greatest = only_event(branch, EventKind::limit_point).state;
   EXPECT_NEAR(greatest.lambda, 9.9955, 0.0025);
-  EXPECT_NEAR(-model.structure().value(greatest, model.structure().freedom(1, Freedom::x)), 0.620, 5e-4);
+  EXPECT_NEAR(-model.structure().value(greatest, model.structure().dof(1, Dof::x)), 0.620, 5e-4);
 }
 
 }  // namespace arcwall::essenburg_channel_test

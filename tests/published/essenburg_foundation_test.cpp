@@ -56,7 +56,7 @@ class FoundationPath {
                .phi_end = model_.structure().value(state, *mesh.rotations.back()) / scale_};
     for (Index j = 0; j < system.contact_count(); ++j) {
       row.R += 2.0 * system.force(state, j) / scale_;
-      if (state.piece[static_cast<std::size_t>(j)]) row.c = system.candidate(j).label().fraction;
+      if (state.active_set[static_cast<std::size_t>(j)]) row.c = system.candidate(j).label().fraction;
     }
     row.q0 = *system.contact(state, 0).pressure() / scale_;
     return row;
@@ -222,9 +222,9 @@ TEST(EssenburgFoundation, AThinBeamConformsToAParabolaSlow) {
                       .theory = Theory::essenburg,
                       .section = test::essenburg_section(21000.0, 0.29, 0.2, h),
                       .elements = 80});
-  builder.fix(builder.freedom(0, Freedom::x));
+  builder.fix(builder.dof(0, Dof::x));
   builder.fix(builder.shared_rotation(0).value());
-  builder.fix(builder.freedom(1, Freedom::z));
+  builder.fix(builder.dof(1, Dof::z));
   builder.add_load(builder.shared_rotation(1).value(), 1e-5, LoadKind::proportional);
   const test::ContactModel model(
       builder.build(), {{.name = "wall", .side = Side::below, .profile = parabola_profile({0.0, -0.5 * h - d}, k)}},
@@ -238,7 +238,7 @@ TEST(EssenburgFoundation, AThinBeamConformsToAParabolaSlow) {
   double edge = 0.0, force = 0.0;
   for (Index j = 0; j < model.system().contact_count(); ++j) {
     force += model.system().force(state, j);
-    if (state.piece[static_cast<std::size_t>(j)]) edge = model.system().candidate(j).label().fraction;
+    if (state.active_set[static_cast<std::size_t>(j)]) edge = model.system().candidate(j).label().fraction;
   }
   const double bending = 6e-5 - EI * k, free = std::sqrt(6.0 * EI * (d - 0.5 * k) / bending);
   EXPECT_NEAR(edge, 1.0 - free, h);

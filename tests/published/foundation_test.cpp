@@ -36,7 +36,7 @@ TEST(Foundation, TheForceAtTheMiddleIsThatOfTheElasticaWhileOnePointTouches) {
   const State& state = branch.last().state;
   double force = 0.0;
   for (Index j = 0; j < model.system().contact_count(); ++j) force += model.system().force(state, j);
-  EXPECT_EQ(std::count(state.piece.begin(), state.piece.end(), 1), 1);
+  EXPECT_EQ(std::count(state.active_set.begin(), state.active_set.end(), 1), 1);
   // The face touches at the middle, where the section is upright: the same equilibrium as on the axis.
   EXPECT_NEAR(force, 1.66364268, 1e-7);
 }

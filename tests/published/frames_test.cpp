@@ -20,13 +20,13 @@ using test::traced;
 
 PathModel lee(int elements, const test::BeamTheory& theory = {}) {
   auto structure = test::lee_frame(elements, theory);
-  const TargetValue stop = test::stop_at(*structure, 2, Freedom::z, -90.0);
+  const TargetValue stop = test::stop_at(*structure, 2, Dof::z, -90.0);
   return {.structure = std::move(structure), .loaded = 2, .first_step = 0.1, .target_values = {stop}, .watch = true};
 }
 
 PathModel williams(int elements, const test::BeamTheory& theory = {}) {
   auto structure = test::williams_toggle(elements, theory);
-  const TargetValue stop = test::stop_at(*structure, 1, Freedom::z, -0.8);
+  const TargetValue stop = test::stop_at(*structure, 1, Dof::z, -0.8);
   return {.structure = std::move(structure), .first_step = 2.0, .target_values = {stop}, .watch = true};
 }
 

@@ -46,9 +46,9 @@ StructureBuilder loaded_beam(Theory theory, int elements) {
                       .order = 4,
                       .section = {.E = 1.0, .A = EA, .I = EI, .height = 0.0},
                       .elements = elements});
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
-  builder.fix(builder.freedom(1, Freedom::z));
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
+  builder.fix(builder.dof(1, Dof::z));
   builder.add_distributed_load(0, {0.0, -q}, LoadKind::proportional);
   return builder;
 }

@@ -27,9 +27,9 @@ test::SlidingModel above(std::shared_ptr<const Profile> profile, int elements) {
                       .order = 4,
                       .section = {.E = 21000.0, .A = 8e-4, .I = 0.04 * 8e-6 / 12.0, .height = 2.0 * half_height},
                       .elements = elements});
-  for (const Freedom freedom : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(clamp, freedom));
+  for (const Dof dof : {Dof::x, Dof::z}) builder.fix(builder.dof(clamp, dof));
   builder.fix(builder.shared_rotation(clamp).value());
-  builder.add_load(builder.freedom(tip, Freedom::z), -3.3e-4, LoadKind::proportional);
+  builder.add_load(builder.dof(tip, Dof::z), -3.3e-4, LoadKind::proportional);
   return {builder, {{.name = "peg", .side = Side::below, .profile = std::move(profile)}}, 0.1};
 }
 

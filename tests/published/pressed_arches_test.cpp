@@ -46,8 +46,8 @@ double first_branch_point(double from, double to, Ends ends, const test::BeamThe
   }
   const bool symmetric = ends == Ends::on_lines_of_symmetry;
   for (const Index end : {0, 2}) {
-    if (!symmetric || end == 0) builder.fix(builder.freedom(end, Freedom::x));
-    if (!symmetric || end == 2) builder.fix(builder.freedom(end, Freedom::z));
+    if (!symmetric || end == 0) builder.fix(builder.dof(end, Dof::x));
+    if (!symmetric || end == 2) builder.fix(builder.dof(end, Dof::z));
     if (ends != Ends::pinned) builder.fix(builder.shared_rotation(end).value());
   }
   const auto structure = builder.build();

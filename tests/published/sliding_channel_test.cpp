@@ -43,7 +43,7 @@ SlidingModel channel(int elements, std::vector<SineDeviation> imperfection = {},
 
 std::shared_ptr<const Observable> middle(const SlidingModel& model) { return model.at("0", 0.5, Component::z); }
 
-double shortening(const SlidingModel& model, const State& state) { return -model.joint(1, Freedom::x)->value(state); }
+double shortening(const SlidingModel& model, const State& state) { return -model.joint(1, Dof::x)->value(state); }
 
 // The perfect column's whole path: straight, on the upper wall, crossing the channel, on both walls.
 struct PerfectChannel {
@@ -55,7 +55,7 @@ struct PerfectChannel {
       : model(channel(elements, {}, continuum)), options(until(to)) {
     options.target_values.push_back({.quantity = middle(model), .value = 0.0});
     branches = test::follow(model.system(), model.system().rest(), options, {middle(model)},
-                            {{.quantity = model.joint(1, Freedom::x), .label = "shortening"}});
+                            {{.quantity = model.joint(1, Dof::x), .label = "shortening"}});
   }
 
   // λ of every event that has an expected value, in order.
@@ -237,7 +237,7 @@ TEST(SlidingChannelEvents, GoOnWithTheSymmetricMemberOfAContinuum) {
   EXPECT_GE(system.least_gap(last, 10), -1e-9);
   State beside = last;  // where neither moments nor forces of the neutral spans are round-off
   for (Index i = 0; i < beside.x.size(); ++i) beside.x[i] += 1e-3 * std::sin(1.0 + 2.0 * double(i));
-  const SlidingUnknowns index(beside.piece);
+  const SlidingUnknowns index(beside.active_set);
   for (std::size_t span = 0; span < 2; ++span) beside.x[index.holding_force(span)] = 1e-7;
   EXPECT_LE(check_derivatives(system, beside, 1e-6).worst(), 1e-6);
 }

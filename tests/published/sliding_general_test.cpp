@@ -247,11 +247,11 @@ TEST(SlidingContactPath, FollowsAClampedColumnByAnyMeshAndStepSlow) {
       EXPECT_EQ(kinds, (std::vector{branches, touches, spreads}));
       EXPECT_EQ(path.end(), EndReason::stop);
       const State& last = path.branches.back().arcs.back().to.state;
-      EXPECT_TRUE(path.model.system().leaves_stability_open(last.piece));
+      EXPECT_TRUE(path.model.system().leaves_stability_open(last.active_set));
       if (scale != 1.0) continue;
       State beside = last;  // where neither moments nor forces of the neutral spans are round-off
       for (Index i = 0; i < beside.x.size(); ++i) beside.x[i] += 1e-3 * std::sin(1.0 + 2.0 * double(i));
-      const SlidingUnknowns index(beside.piece);
+      const SlidingUnknowns index(beside.active_set);
       for (std::size_t span = 0; span < 2; ++span) beside.x[index.holding_force(span)] = 1e-7;
       EXPECT_LE(check_derivatives(path.model.system(), beside, 1e-6).worst(), 1e-6);
     }
@@ -289,7 +289,7 @@ TEST(SlidingContactPath, CountsAsItsEquationsSayOnASharpBend) {
     for (const ExploredBranch& branch : path.branches)
       for (const Arc& arc : branch.arcs) {
         const State& state = arc.to.state;
-        const bool one_point = state.piece.closed_count() == 1 && mesh_of(state).breakpoints() == 1;
+        const bool one_point = state.active_set.closed_count() == 1 && mesh_of(state).breakpoints() == 1;
         if (!one_point || !arc.to.count.unstable || !arc.events.empty()) continue;
         const Index unstable = *arc.to.count.unstable;
         const int sign = determinant_sign(path.model.system(), state) * (unstable % 2 == 0 ? 1 : -1);
@@ -350,7 +350,7 @@ TEST(SlidingContactPath, EndsWhereAFreeEndStandsUpright) {
                       .axis = straight_axis({0.0, 0.0}, {1.0, 0.0}),
                       .section = {.E = 1e4, .A = 0.1, .I = 1e-4, .height = 0.05},
                       .elements = 16});
-  for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(root, which));
+  for (const Dof which : {Dof::x, Dof::z}) builder.fix(builder.dof(root, which));
   builder.fix(builder.shared_rotation(root).value());
   builder.add_load(builder.shared_rotation(tip).value(), -1.0, LoadKind::proportional);
   const Path stands = path_of(
@@ -401,9 +401,9 @@ SlidingModel column_that_snaps(int elements) {
                       .order = 6,
                       .section = {.E = 2.1e4, .A = width * h, .I = width * h * h * h / 12.0, .height = h},
                       .elements = elements});
-  builder.fix(builder.freedom(left, Freedom::x));
-  for (const Index end : {left, right}) builder.fix(builder.freedom(end, Freedom::z));
-  builder.add_load(builder.freedom(right, Freedom::x), -3.6, LoadKind::proportional);
+  builder.fix(builder.dof(left, Dof::x));
+  for (const Index end : {left, right}) builder.fix(builder.dof(end, Dof::z));
+  builder.add_load(builder.dof(right, Dof::x), -3.6, LoadKind::proportional);
   return {builder,
           {{.name = "upper", .side = Side::above, .profile = flat_profile(1.9)},
            {.name = "lower", .side = Side::below, .profile = flat_profile(-1.9)}},

@@ -47,10 +47,10 @@ struct Beam {
     };
     add_member("left", a, b, 0.0, joint, left);
     add_member("right", b, c, joint, L, right);
-    builder.fix(builder.freedom(a, Freedom::x));
-    for (const Index end : {a, c}) builder.fix(builder.freedom(end, Freedom::z));
+    builder.fix(builder.dof(a, Dof::x));
+    for (const Index end : {a, c}) builder.fix(builder.dof(end, Dof::z));
     if (moment != 0.0) builder.add_load(*builder.shared_rotation(c), moment, LoadKind::proportional);
-    if (thrust != 0.0) builder.add_load(builder.freedom(c, Freedom::x), -thrust, LoadKind::proportional);
+    if (thrust != 0.0) builder.add_load(builder.dof(c, Dof::x), -thrust, LoadKind::proportional);
     const double z = gap + 0.5 * left.height;
     const test::TestWall below{.name = "wall", .side = Side::below, .profile = flat_profile(-z)},
         above{.name = "wall", .side = Side::above, .profile = flat_profile(z)};

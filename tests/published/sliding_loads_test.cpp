@@ -48,9 +48,9 @@ struct Beam {
       add_member(left, right, 0.0, L, elements);
       loaded = builder.mesh(0).nodes[static_cast<std::size_t>(before)];
     }
-    builder.fix(builder.freedom(left, Freedom::x));
-    for (const Index end : {left, right}) builder.fix(builder.freedom(end, Freedom::z));
-    builder.add_load(builder.freedom(loaded, Freedom::z), -force, LoadKind::proportional);
+    builder.fix(builder.dof(left, Dof::x));
+    for (const Index end : {left, right}) builder.fix(builder.dof(end, Dof::z));
+    builder.add_load(builder.dof(loaded, Dof::z), -force, LoadKind::proportional);
     if (moment != 0.0) builder.add_load(*builder.shared_rotation(right), moment, LoadKind::proportional);
     return {builder, {{.name = "floor", .side = Side::below, .profile = flat_profile(-gap - 0.005)}}, 0.05};
   }

@@ -140,8 +140,8 @@ TEST_P(SlidingPressedPart, WrapsACylinder) {
     first.push_back(path.points()[0] / 5.591291491879 - 1.0);
     last.push_back(path.points()[1] / 15.129810332531 - 1.0);
     const State& state = path.last();
-    const Index closed = state.piece.closed_count(),
-                held = path.model.system().multiplier_count(state.piece) - closed - 2;
+    const Index closed = state.active_set.closed_count(),
+                held = path.model.system().multiplier_count(state.active_set) - closed - 2;
     const Vector inside = state.x.segment(mesh_of(state).unknowns() + closed, held);
     first_force.push_back((path.force(0) - 0.5 * inside[0]) / 0.226994079598 - 1.0);
     last_force.push_back((path.force(1) - 0.5 * inside[held - 1]) / 0.244765017420 - 1.0);
@@ -178,7 +178,7 @@ SlidingModel leaf_on_cylinder(int elements, Theory theory, bool reversed) {
                                                         .order = theory == Theory::elastica ? 6 : 2,
                                                         .section = {.E = 1.0, .A = 1e5, .I = 1.0, .height = 0.01},
                                                         .elements = elements});
-  builder.add_load(builder.freedom(free, Freedom::z), -1.0, LoadKind::proportional);
+  builder.add_load(builder.dof(free, Dof::z), -1.0, LoadKind::proportional);
   return {builder,
           {{.name = "cylinder",
             .side = Side::below,

@@ -69,7 +69,7 @@ struct Cantilever {
     const Index free = strip.free;
     const auto node = static_cast<std::size_t>(std::lround(elements * (reversed ? 1.0 - load_at : load_at)));
     const auto push = [&](Index at, double force) {
-      if (force != 0.0) builder.add_load(builder.freedom(at, Freedom::z), -force, LoadKind::proportional);
+      if (force != 0.0) builder.add_load(builder.dof(at, Dof::z), -force, LoadKind::proportional);
     };
     push(builder.mesh(0).nodes[node], load);
     push(free, load_on_tip);

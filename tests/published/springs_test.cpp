@@ -49,15 +49,15 @@ double first_branch_point(const Springs& springs, Theory theory, int elements) {
                       .order = theory == Theory::elastica ? 6 : 2,
                       .section = test::section_of(EA, EI),
                       .elements = elements});
-  builder.fix(builder.freedom(0, Freedom::x));
+  builder.fix(builder.dof(0, Dof::x));
   for (const Index end : {0, 1}) {
-    builder.fix(builder.freedom(end, Freedom::z));
+    builder.fix(builder.dof(end, Dof::z));
     if (springs.ends > 0.0) builder.add_ground_stiffness(builder.shared_rotation(end).value(), springs.ends);
   }
-  const Index middle = builder.freedom(builder.mesh(0).nodes[static_cast<std::size_t>(elements / 2)], Freedom::z);
+  const Index middle = builder.dof(builder.mesh(0).nodes[static_cast<std::size_t>(elements / 2)], Dof::z);
   if (springs.middle > 0.0) builder.add_ground_stiffness(middle, springs.middle);
   if (springs.foundation > 0.0) builder.add_foundation(0, {0.0, springs.foundation});
-  builder.add_load(builder.freedom(1, Freedom::x), -1.0, LoadKind::proportional);
+  builder.add_load(builder.dof(1, Dof::x), -1.0, LoadKind::proportional);
   const auto structure = builder.build();
   TraceOptions options;
   options.step.first = 0.05;

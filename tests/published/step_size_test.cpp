@@ -43,7 +43,7 @@ void expect_same_with_any_step(const PathModel& model, BranchPolicy policy = Bra
 }
 
 PathModel path_of(std::unique_ptr<Structure> structure, double first_step, double lowest, Index loaded = 1) {
-  const TargetValue stop = test::stop_at(*structure, loaded, Freedom::z, lowest);
+  const TargetValue stop = test::stop_at(*structure, loaded, Dof::z, lowest);
   return {.structure = std::move(structure),
           .loaded = loaded,
           .first_step = first_step,

@@ -51,7 +51,7 @@ const Strain strains[] = {
 
 TraceOptions down_to(const Structure& truss, double descent) {
   TraceOptions options;
-  options.target_values.push_back(test::stop_at(truss, 1, Freedom::z, -descent));
+  options.target_values.push_back(test::stop_at(truss, 1, Dof::z, -descent));
   return options;
 }
 
@@ -85,7 +85,7 @@ TEST(VonMisesTruss, LimitLoadsMatchTheClosedFormsForAllStrains) {
     SCOPED_TRACE(static_cast<int>(expected.strain));
     constexpr double EA = 1e4;
     const auto truss = VonMisesTruss{.EA = EA, .strain = expected.strain}.structure();
-    const auto w = test::displacement(*truss, 1, Freedom::z);
+    const auto w = test::displacement(*truss, 1, Dof::z);
     const TraceOptions options = down_to(*truss, 2.3);
     const test::Branch branch = trace(*truss, options, std::vector<Watch>{{.quantity = w, .label = "w"}});
 

@@ -9,8 +9,8 @@
 namespace arcwall::test {
 
 State rest(const System& system) {
-  const Piece open = system.open_piece();
-  return {.x = Vector::Zero(system.size(open)), .lambda = 0.0, .piece = open};
+  const ActiveSet open = system.open_active_set();
+  return {.x = Vector::Zero(system.size(open)), .lambda = 0.0, .active_set = open};
 }
 
 Branch trace(const System& system, const TraceOptions& options, const State& start, std::vector<Watch> watched) {

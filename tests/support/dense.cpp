@@ -54,7 +54,7 @@ std::optional<Index> dense_unstable_count(const System& system, const State& sta
   Linearization now;
   system.linearize(state, now);
   const Matrix whole = full(now.K);
-  const Index m = system.multiplier_count(state.piece), n = whole.rows() - m;
+  const Index m = system.multiplier_count(state.active_set), n = whole.rows() - m;
   return negative_on_null_space(whole.topLeftCorner(n, n), whole.bottomLeftCorner(m, n));
 }
 
@@ -63,10 +63,10 @@ namespace {
 // By which a point contact that slides resists a tilt, (8.8): c = p Λ_f/|κ − Λ_f κ_w|, with the curvatures along the
 // body's travel and Λ_f = Λ − o κ the stretch of the face; infinite where the body lies on the wall.
 double tilt_spring(const SlidingContact& system, const State& state, Index k) {
-  const auto& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());
+  const auto& on = static_cast<const SlidingContactLayout&>(*state.active_set.layout());
   const auto point = static_cast<std::size_t>(k);
   if (on.lies_beside(point)) return infinity;
-  if (!state.piece[point]) return 0.0;
+  if (!state.active_set[point]) return 0.0;
   const auto [strand, position] = on.mesh().breakpoint(k);
   const MeshState now = mesh_state_of(state);
   const AxisPlace axis = on.mesh().node(strand, position, now);
@@ -87,13 +87,13 @@ std::optional<Index> dense_unstable_count(const SlidingContact& system, const St
   Linearization now;
   system.linearize(state, now);
   const Matrix whole = full(now.K);
-  const Index m = system.multiplier_count(state.piece), n = whole.rows() - m;
+  const Index m = system.multiplier_count(state.active_set), n = whole.rows() - m;
   const Index points = mesh_of(state).breakpoints();
   Matrix K = whole.topLeftCorner(n, n);
   std::vector<Index> held;
-  for (Index row = n; row < n + state.piece.closed_count(); ++row)
+  for (Index row = n; row < n + state.active_set.closed_count(); ++row)
     if (state.x[row] > tolerance * system.scales().force) held.push_back(row);
-  for (Index row = n + state.piece.closed_count(); row < whole.rows() - points; ++row) held.push_back(row);
+  for (Index row = n + state.active_set.closed_count(); row < whole.rows() - points; ++row) held.push_back(row);
   for (Index k = 0; k < points; ++k) {
     const Index row = whole.rows() - points + k;
     if (const double spring = tilt_spring(system, state, k); std::isfinite(spring)) {

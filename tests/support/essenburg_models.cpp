@@ -38,9 +38,9 @@ std::unique_ptr<Structure> EssenburgFoundation::structure() const {
   builder.add_joint(middle);
   builder.add_joint(end);
   builder.add_member(beam_along(straight_axis(middle, end), beams, foundation_height, foundation_height, elements));
-  builder.fix(builder.freedom(0, Freedom::x));
+  builder.fix(builder.dof(0, Dof::x));
   builder.fix(builder.shared_rotation(0).value());
-  builder.fix(builder.freedom(1, Freedom::z));
+  builder.fix(builder.dof(1, Dof::z));
   builder.add_load(builder.shared_rotation(1).value(), scale, LoadKind::proportional);
   return builder.build();
 }
@@ -58,10 +58,10 @@ std::unique_ptr<Structure> EssenburgChannel::structure() const {
   MemberDescription column = beam_along(straight_axis(left, right), beams, 0.1, height, elements);
   column.imperfection = imperfection;
   builder.add_member(std::move(column));
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
-  builder.fix(builder.freedom(1, Freedom::z));
-  builder.add_load(builder.freedom(1, Freedom::x), -1.0, LoadKind::proportional);
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
+  builder.fix(builder.dof(1, Dof::z));
+  builder.add_load(builder.dof(1, Dof::x), -1.0, LoadKind::proportional);
   return builder.build();
 }
 

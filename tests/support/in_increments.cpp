@@ -13,7 +13,7 @@ InIncrements::InIncrements(std::unique_ptr<Structure> structure, const std::vect
                                                  ContactScales{.length = 2.0, .force = 1.0}, law);
   const Index n = described_->size({});
   scheme_ = std::make_unique<LoadIncrements>(
-      *contact_, State{.x = Vector::Zero(n), .piece = contact_->open_piece()}, 1.0,
+      *contact_, State{.x = Vector::Zero(n), .active_set = contact_->open_active_set()}, 1.0,
       [this, n](const State& state) { present_.advance({.x = state.x.head(n), .lambda = state.lambda}); });
   last_ = scheme_->start().to;
 }
@@ -29,7 +29,7 @@ void InIncrements::relax(int increments) {
   for (int i = 0; i < increments; ++i) ASSERT_NO_FATAL_FAILURE(go_to(lambda));
 }
 
-double InIncrements::force() const { return last_.state.x.tail(last_.state.piece.closed_count()).sum(); }
+double InIncrements::force() const { return last_.state.x.tail(last_.state.active_set.closed_count()).sum(); }
 
 double InIncrements::z_of(std::size_t node, double offset) const {
   return MemberPoint(*described_, described_->members()[0], node, offset).position(last_.state).y() - offset;

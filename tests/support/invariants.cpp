@@ -21,7 +21,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // before.
 Vector residual_allowance(const System& system, const State& state, const Linearization& now,
                           const TraceOptions& options, double lambda_scale) {
-  const Vector weights = system.weights(state.piece);
+  const Vector weights = system.weights(state.active_set);
   const double tolerance = 4.0 * options.corrector.tolerance;
   Vector off(state.x.size());
   for (Index i = 0; i < off.size(); ++i) {
@@ -46,13 +46,13 @@ void expect_equilibrium(const System& system, const PathPoint& point, const Trac
 }
 
 void expect_side_conditions(const System& system, const PathPoint& point, double tolerance) {
-  if (point.state.piece.size() == 0) return;
+  if (point.state.active_set.size() == 0) return;
   const Vector guards = system.guards(point.state);
   EXPECT_GE(guards.minCoeff(), -tolerance) << "a gap is negative or a contact pulls";
-  const Piece open = point.state.piece.all_open();
-  Vector gaps = system.guards(system.with_piece(point.state, open));
+  const ActiveSet open = point.state.active_set.all_open();
+  Vector gaps = system.guards(system.with_active_set(point.state, open));
   for (Index j = 0; j < gaps.size(); ++j) {
-    const bool closed = point.state.piece[static_cast<std::size_t>(j)] != 0;
+    const bool closed = point.state.active_set[static_cast<std::size_t>(j)] != 0;
     if (closed) gaps[j] += system.compliance(open, j) * guards[j];  // as far as springs give way
     EXPECT_GE(gaps[j], -4.0 * tolerance) << "contact " << j << " penetrates";
     EXPECT_LE(gaps[j], closed ? 4.0 * tolerance : infinity) << "the closed contact " << j << " has a gap";
@@ -74,8 +74,8 @@ void expect_count(const System& system, const Arc& arc, const TraceOptions& opti
     return event.kind == EventKind::contact_closes || event.kind == EventKind::contact_opens;
   });
   if (corner) return;
-  const Piece strong = strictly_active(system, arc.to.state, options.guard_tolerance);
-  const auto dense = dense_unstable_count(system, system.with_piece(arc.to.state, strong));
+  const ActiveSet strong = strictly_active(system, arc.to.state, options.guard_tolerance);
+  const auto dense = dense_unstable_count(system, system.with_active_set(arc.to.state, strong));
   if (dense) {
     EXPECT_EQ(*arc.to.count.unstable, *dense);
   }
@@ -91,7 +91,7 @@ void expect_extremum(const Event& event, const PathPoint& before, const PathPoin
   EXPECT_LE(event.lambda_uncertainty, 1e-10 * std::max(1.0, std::abs(event.state.lambda)));
 }
 
-void expect_changes(const Event& event, const Piece& before, const Piece& after) {
+void expect_changes(const Event& event, const ActiveSet& before, const ActiveSet& after) {
   if (event.kind != EventKind::contact_closes && event.kind != EventKind::contact_opens) return;
   EXPECT_FALSE(event.guards.empty());
   for (const Index j : event.guards) {
@@ -103,7 +103,7 @@ void expect_changes(const Event& event, const Piece& before, const Piece& after)
 // As above with a border: s is sought to the same relative accuracy as positions, moments vanish to round-off.
 Vector bordered_allowance(const SlidingContact& system, const State& state, const Linearization& now,
                           const TraceOptions& options, double lambda_scale) {
-  const Vector weights = system.weights(state.piece);
+  const Vector weights = system.weights(state.active_set);
   const double tolerance = 4.0 * options.corrector.tolerance, L = system.scales().length;
   const Index n = state.x.size(), m = mesh_of(state).breakpoints(), core = n - m;
   Vector off(n);
@@ -141,7 +141,7 @@ void expect_sliding_invariants(const SlidingContact& system, const std::vector<A
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const State& state = arcs[i].to.state;
     SCOPED_TRACE("point " + std::to_string(i) + ", lambda = " + std::to_string(state.lambda));
-    ASSERT_EQ(state.x.size(), system.size(state.piece));
+    ASSERT_EQ(state.x.size(), system.size(state.active_set));
     now = {};
     system.linearize(state, now);
     const Vector allowed = bordered_allowance(system, state, now, options, lambda_scale);
@@ -150,9 +150,9 @@ void expect_sliding_invariants(const SlidingContact& system, const std::vector<A
     EXPECT_LE(excess, 0.0) << "unknown " << worst << ": |F| = " << std::abs(now.F[worst]) << ", allowed "
                            << allowed[worst];
     Index lowest = 0;
-    if (system.guard_count(state.piece) > 0) {
+    if (system.guard_count(state.active_set) > 0) {
       const double least = system.guards(state).minCoeff(&lowest);
-      EXPECT_GE(least, -4.0 * options.guard_tolerance) << "guard " << lowest << " of " << state.piece.size();
+      EXPECT_GE(least, -4.0 * options.guard_tolerance) << "guard " << lowest << " of " << state.active_set.size();
     }
     EXPECT_GE(system.least_gap(state, places), -between * system.scales().length);
     if (i % static_cast<std::size_t>(what.recount_every) == 0 && arcs[i].to.count.unstable && !changes_here(arcs[i]))
@@ -172,7 +172,7 @@ void expect_branch_invariants(const System& system, const Branch& branch, const 
   for (std::size_t i = 0; i < branch.arcs.size(); ++i) {
     SCOPED_TRACE("point " + std::to_string(i) + ", lambda = " + std::to_string(branch.arcs[i].to.state.lambda));
     const Arc& arc = branch.arcs[i];
-    ASSERT_EQ(arc.to.state.x.size(), system.size(arc.to.state.piece));
+    ASSERT_EQ(arc.to.state.x.size(), system.size(arc.to.state.active_set));
     expect_equilibrium(system, arc.to, options, branch.lambda_scale);
     expect_side_conditions(system, arc.to, options.guard_tolerance);
     if (i % static_cast<std::size_t>(what.recount_every) == 0) expect_count(system, arc, options);
@@ -180,13 +180,13 @@ void expect_branch_invariants(const System& system, const Branch& branch, const 
     const Arc& before = branch.arcs[i - 1];
     EXPECT_GE(arc.to.arc, before.to.arc);
     if (arc.to.state.x.size() == before.to.state.x.size()) {
-      const Metric metric(system.weights(arc.to.state.piece), branch.lambda_scale);
+      const Metric metric(system.weights(arc.to.state.active_set), branch.lambda_scale);
       const Vector moved = arc.to.state.x - before.to.state.x;
       EXPECT_LE(std::sqrt(metric.inner_x(moved, moved)), 2.0 * options.step.max);
     }
     for (const Event& event : arc.events) {
       EXPECT_EQ(event.arc, arc.to.arc);
-      expect_changes(event, before.to.state.piece, arc.to.state.piece);
+      expect_changes(event, before.to.state.active_set, arc.to.state.active_set);
       if (event.kind == EventKind::limit_point && options.events == EventSearch::locate && i + 1 < branch.arcs.size())
         expect_extremum(event, before.to, branch.arcs[i + 1].to);
     }

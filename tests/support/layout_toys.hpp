@@ -17,23 +17,25 @@ struct NumberedLayout final : Layout {
   int number;
 };
 
-/// A system whose unknowns change behind validity bounds. Its pieces are told apart by the number of their layout.
+/// A system whose unknowns change behind validity bounds. Its active sets are told apart by the number of their layout.
 class LayoutToy : public System {
  public:
   State state_on(int layout, Vector x, double lambda) const {
-    return {.x = std::move(x), .lambda = lambda, .piece = pieces_[static_cast<std::size_t>(layout)]};
+    return {.x = std::move(x), .lambda = lambda, .active_set = active_sets_[static_cast<std::size_t>(layout)]};
   }
-  static int layout_of(const Piece& piece) { return static_cast<const NumberedLayout&>(*piece.layout()).number; }
+  static int layout_of(const ActiveSet& active_set) {
+    return static_cast<const NumberedLayout&>(*active_set.layout()).number;
+  }
 
-  Piece open_piece() const override { return pieces_[0]; }
+  ActiveSet open_active_set() const override { return active_sets_[0]; }
 
  protected:
   /// As many closed contacts on each of the two layouts.
   LayoutToy(std::size_t first, std::size_t second)
-      : pieces_{Piece(first, 1, std::make_shared<NumberedLayout>(0)),
-                Piece(second, 1, std::make_shared<NumberedLayout>(1))} {}
+      : active_sets_{ActiveSet(first, 1, std::make_shared<NumberedLayout>(0)),
+                     ActiveSet(second, 1, std::make_shared<NumberedLayout>(1))} {}
 
-  std::array<Piece, 2> pieces_;
+  std::array<ActiveSet, 2> active_sets_;
 };
 
 /// A point contact that spreads to a span of the length d. The point serves while x ≤ 1, the span while d ≥ ½ d₀; its
@@ -50,11 +52,11 @@ class SpreadingToy final : public LayoutToy {
   double lambda_on_span(double x) const { return x - 8.0 * c * std::pow(x - 1.0, 3); }
   State on_span(double x) const { return state_on(1, Vector{{x, 2.0 * (x - 1.0)}}, lambda_on_span(x)); }
 
-  Index size(const Piece& piece) const override { return 1 + layout_of(piece); }
-  Index separate_contacts(const Piece&) const override { return 1; }  // the span is a contact zone
+  Index size(const ActiveSet& active_set) const override { return 1 + layout_of(active_set); }
+  Index separate_contacts(const ActiveSet&) const override { return 1; }  // the span is a contact zone
   void residual(const State& s, Eigen::Ref<Vector> F) const override {
     F[0] = s.x[0] - s.lambda;
-    if (layout_of(s.piece) == 0) return;
+    if (layout_of(s.active_set) == 0) return;
     const double d = s.x[1];
     F[0] -= c * d * d * d;
     F[1] = 1.5 * c * d * d * (d - 2.0 * (s.x[0] - 1.0));
@@ -71,7 +73,7 @@ class SpreadingToy final : public LayoutToy {
     residual(s, out.F);
     out.F_lambda = -Vector::Unit(n, 0);
     out.K = lower_triangle(K, -1.0);
-    out.pattern_of = s.piece;
+    out.pattern_of = s.active_set;
   }
   double energy(const State& s) const override {
     const double rest = 0.5 * s.x[0] * s.x[0] - s.lambda * s.x[0];
@@ -79,15 +81,15 @@ class SpreadingToy final : public LayoutToy {
     return rest - c * std::pow(s.x[1], 3) * (s.x[0] - 1.0) + 0.375 * c * std::pow(s.x[1], 4);
   }
 
-  Index guard_count(const Piece& piece) const override { return static_cast<Index>(piece.size()) + 1; }
+  Index guard_count(const ActiveSet& active_set) const override { return static_cast<Index>(active_set.size()) + 1; }
   Vector guards(const State& s) const override {
-    Vector all = Vector::Ones(guard_count(s.piece));  // contacts hold
+    Vector all = Vector::Ones(guard_count(s.active_set));  // contacts hold
     all[all.size() - 1] = s.x.size() == 1 ? 1.0 - s.x[0] : s.x[1] - 0.5 * d0;
     return all;
   }
   Row guard_gradient(const State& s, Index j) const override {
     Row row{.dx = Vector::Zero(s.x.size()), .dlambda = 0.0};
-    if (j + 1 == guard_count(s.piece)) row.dx[s.x.size() - 1] = s.x.size() == 1 ? -1.0 : 1.0;
+    if (j + 1 == guard_count(s.active_set)) row.dx[s.x.size() - 1] = s.x.size() == 1 ? -1.0 : 1.0;
     return row;
   }
   std::vector<Transition> transitions(const State& s, const Direction&, Index, double) const override {
@@ -119,28 +121,30 @@ class SpreadingToy final : public LayoutToy {
 };
 
 /// A mesh that changes at x = 1: x = λ before, x = λ + error behind, the error being that of the second mesh. Both
-/// pieces have one closed contact.
+/// active sets have one closed contact.
 class RemeshingToy final : public LayoutToy {
  public:
   explicit RemeshingToy(double error_behind) : LayoutToy(1, 1), error(error_behind) {}
 
-  Index size(const Piece&) const override { return 1; }
+  Index size(const ActiveSet&) const override { return 1; }
   void residual(const State& s, Eigen::Ref<Vector> F) const override {
-    F[0] = s.x[0] - s.lambda - (layout_of(s.piece) == 0 ? 0.0 : error);
+    F[0] = s.x[0] - s.lambda - (layout_of(s.active_set) == 0 ? 0.0 : error);
   }
   void linearize(const State& s, Linearization& out) const override {
     out.F.resize(1);
     residual(s, out.F);
     out.F_lambda = -Vector::Ones(1);
     out.K = lower_triangle(Matrix::Identity(1, 1), -1.0);
-    out.pattern_of = s.piece;
+    out.pattern_of = s.active_set;
   }
   double energy(const State& s) const override { return 0.5 * s.x[0] * s.x[0] - s.lambda * s.x[0]; }
 
-  Index guard_count(const Piece&) const override { return 2; }
-  Vector guards(const State& s) const override { return Vector{{1.0, layout_of(s.piece) == 0 ? 1.0 - s.x[0] : 1.0}}; }
+  Index guard_count(const ActiveSet&) const override { return 2; }
+  Vector guards(const State& s) const override {
+    return Vector{{1.0, layout_of(s.active_set) == 0 ? 1.0 - s.x[0] : 1.0}};
+  }
   Row guard_gradient(const State& s, Index j) const override {
-    return {.dx = Vector::Constant(1, j == 1 && layout_of(s.piece) == 0 ? -1.0 : 0.0), .dlambda = 0.0};
+    return {.dx = Vector::Constant(1, j == 1 && layout_of(s.active_set) == 0 ? -1.0 : 0.0), .dlambda = 0.0};
   }
   std::vector<Transition> transitions(const State& s, const Direction& forward, Index, double) const override {
     return {{.change = Transition::Change::remeshed, .guess = state_on(1, s.x, s.lambda), .forward = forward}};
@@ -155,28 +159,28 @@ class RemeshedFoldToy final : public System {
  public:
   explicit RemeshedFoldToy(double error_behind) : error(error_behind) {}
 
-  Index size(const Piece&) const override { return 1; }
+  Index size(const ActiveSet&) const override { return 1; }
   void residual(const State& s, Eigen::Ref<Vector> F) const override { F[0] = off(s) * off(s) + s.lambda; }
   void linearize(const State& s, Linearization& out) const override {
     out.F.resize(1);
     residual(s, out.F);
     out.F_lambda = Vector::Ones(1);
     out.K = lower_triangle(Matrix::Constant(1, 1, 2.0 * off(s)), -1.0);
-    out.pattern_of = s.piece;
+    out.pattern_of = s.active_set;
   }
   double energy(const State& s) const override { return std::pow(off(s), 3) / 3.0 + s.lambda * s.x[0]; }
   bool admissible(const State& s, double margin) const override { return is_new(s) || 0.03 - s.x[0] >= margin; }
   std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State&,
                                                   double) const override {
     State guess = from;
-    guess.piece = Piece(0, 0, std::make_shared<NumberedLayout>(1));
+    guess.active_set = ActiveSet(0, 0, std::make_shared<NumberedLayout>(1));
     return Transition{.change = Transition::Change::remeshed, .guess = std::move(guess), .forward = forward};
   }
 
   const double error;
 
  private:
-  static bool is_new(const State& s) { return s.piece.layout() != nullptr; }
+  static bool is_new(const State& s) { return s.active_set.layout() != nullptr; }
   double off(const State& s) const { return s.x[0] - (is_new(s) ? error : 0.0); }
 };
 
@@ -185,14 +189,14 @@ class BlindToy final : public System {
  public:
   mutable int inserted = 0;  ///< how often a contact was asked for
 
-  Index size(const Piece&) const override { return 1; }
+  Index size(const ActiveSet&) const override { return 1; }
   void residual(const State& s, Eigen::Ref<Vector> F) const override { F[0] = s.x[0] - s.lambda; }
   void linearize(const State& s, Linearization& out) const override {
     out.F.resize(1);
     residual(s, out.F);
     out.F_lambda = -Vector::Ones(1);
     out.K = lower_triangle(Matrix::Identity(1, 1), -1.0);
-    out.pattern_of = s.piece;
+    out.pattern_of = s.active_set;
   }
   double energy(const State& s) const override { return 0.5 * s.x[0] * s.x[0] - s.lambda * s.x[0]; }
   bool admissible(const State& s, double margin) const override { return 1.0 - s.x[0] >= margin; }
@@ -200,7 +204,7 @@ class BlindToy final : public System {
                                                   double) const override {
     ++inserted;
     State guess = from;
-    guess.piece = Piece(0, 0, std::make_shared<NumberedLayout>(inserted));
+    guess.active_set = ActiveSet(0, 0, std::make_shared<NumberedLayout>(inserted));
     return Transition{.change = Transition::Change::remeshed, .guess = std::move(guess), .forward = forward};
   }
 };

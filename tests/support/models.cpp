@@ -8,13 +8,13 @@ namespace arcwall::test {
 namespace {
 
 void fix(StructureBuilder& builder, Index joint, bool rotation = false) {
-  builder.fix(builder.freedom(joint, Freedom::x));
-  builder.fix(builder.freedom(joint, Freedom::z));
+  builder.fix(builder.dof(joint, Dof::x));
+  builder.fix(builder.dof(joint, Dof::z));
   if (rotation) builder.fix(builder.shared_rotation(joint).value());
 }
 
 void push_down(StructureBuilder& builder, Index joint) {
-  builder.add_load(builder.freedom(joint, Freedom::z), -1.0, LoadKind::proportional);
+  builder.add_load(builder.dof(joint, Dof::z), -1.0, LoadKind::proportional);
 }
 
 // Joints in a row and the beams between them: member i from joint i to i + 1.
@@ -54,7 +54,7 @@ std::unique_ptr<Structure> VonMisesTruss::structure() const {
   bar(apex, right, top, b);
   fix(builder, left);
   fix(builder, right);
-  if (!sways) builder.fix(builder.freedom(apex, Freedom::x));
+  if (!sways) builder.fix(builder.dof(apex, Dof::x));
   push_down(builder, apex);
   return builder.build();
 }
@@ -64,8 +64,8 @@ std::unique_ptr<Structure> Cantilever::structure() const {
   const auto at = add_joints(builder, {{0.0, 0.0}, {length, 0.0}});
   builder.add_member(beam_between(0, 1, straight_axis(at[0], at[1]), section_of(EA, EI, GA), beam, elements));
   fix(builder, 0, true);
-  if (tip_force != 0.0) builder.add_load(builder.freedom(1, Freedom::z), tip_force, LoadKind::proportional);
-  if (tip_push != 0.0) builder.add_load(builder.freedom(1, Freedom::x), -tip_push, LoadKind::proportional);
+  if (tip_force != 0.0) builder.add_load(builder.dof(1, Dof::z), tip_force, LoadKind::proportional);
+  if (tip_push != 0.0) builder.add_load(builder.dof(1, Dof::x), -tip_push, LoadKind::proportional);
   if (tip_moment != 0.0) builder.add_load(builder.shared_rotation(1).value(), tip_moment, LoadKind::proportional);
   return builder.build();
 }
@@ -80,8 +80,7 @@ ClampedMember clamped_member(const Vec2& clamp, const Vec2& tip, bool reversed, 
   described.to = 1;
   described.axis = middle ? arc_axis(from, *middle, to) : straight_axis(from, to);
   member.builder.add_member(std::move(described));
-  for (const Freedom which : {Freedom::x, Freedom::z})
-    member.builder.fix(member.builder.freedom(member.clamped, which));
+  for (const Dof which : {Dof::x, Dof::z}) member.builder.fix(member.builder.dof(member.clamped, which));
   member.builder.fix(member.builder.shared_rotation(member.clamped).value());
   return member;
 }
@@ -91,9 +90,9 @@ std::unique_ptr<Structure> Column::structure() const {
   const auto at = add_joints(builder, {{0.0, 0.0}, {length, 0.0}});
   builder.add_member(beam_between(0, 1, straight_axis(at[0], at[1]), section_of(EA, EI, GA), beam, elements));
   fix(builder, 0, clamped);
-  builder.fix(builder.freedom(1, Freedom::z));
+  builder.fix(builder.dof(1, Dof::z));
   if (clamped) builder.fix(builder.shared_rotation(1).value());
-  builder.add_load(builder.freedom(1, Freedom::x), -1.0, LoadKind::proportional);
+  builder.add_load(builder.dof(1, Dof::x), -1.0, LoadKind::proportional);
   return builder.build();
 }
 
@@ -154,8 +153,8 @@ std::unique_ptr<Structure> DiamondFrame::structure() const {
     builder.add_member(std::move(bar));
   }
   fix(builder, 0);
-  builder.fix(builder.freedom(2, Freedom::x));
-  builder.add_load(builder.freedom(2, Freedom::z), 2.0, LoadKind::proportional);
+  builder.fix(builder.dof(2, Dof::x));
+  builder.add_load(builder.dof(2, Dof::z), 2.0, LoadKind::proportional);
   return builder.build();
 }
 
@@ -203,16 +202,14 @@ std::unique_ptr<Structure> shallow_arch(int elements, const BeamTheory& beam) {
       .structure();
 }
 
-std::shared_ptr<const Observable> displacement(const Structure& structure, Index node, Freedom which) {
-  return std::make_shared<FreedomObservable>(structure, structure.freedom(node, which));
+std::shared_ptr<const Observable> displacement(const Structure& structure, Index node, Dof which) {
+  return std::make_shared<DofObservable>(structure, structure.dof(node, which));
 }
 
 std::shared_ptr<const Observable> joint_rotation(const Structure& structure, Index joint) {
   for (const MemberMesh& mesh : structure.members()) {
-    if (mesh.nodes.front() == joint)
-      return std::make_shared<FreedomObservable>(structure, mesh.rotations.front().value());
-    if (mesh.nodes.back() == joint)
-      return std::make_shared<FreedomObservable>(structure, mesh.rotations.back().value());
+    if (mesh.nodes.front() == joint) return std::make_shared<DofObservable>(structure, mesh.rotations.front().value());
+    if (mesh.nodes.back() == joint) return std::make_shared<DofObservable>(structure, mesh.rotations.back().value());
   }
   return nullptr;
 }
@@ -221,7 +218,7 @@ Vec2 displacement_of(const Structure& structure, const State& state, Index node)
   return structure.current(state, node) - structure.position(node);
 }
 
-TargetValue stop_at(const Structure& structure, Index node, Freedom which, double value) {
+TargetValue stop_at(const Structure& structure, Index node, Dof which, double value) {
   return {.quantity = displacement(structure, node, which), .value = value, .stops = true, .label = "displacement"};
 }
 
@@ -234,7 +231,7 @@ TraceOptions PathModel::options() const {
 
 std::vector<Watch> PathModel::watched() const {
   if (!watch) return {};
-  return {{.quantity = displacement(*structure, loaded, Freedom::z), .label = "z"}};
+  return {{.quantity = displacement(*structure, loaded, Dof::z), .label = "z"}};
 }
 
 std::shared_ptr<const Obstacle> TestWall::obstacle() const {
@@ -279,7 +276,7 @@ std::unique_ptr<Structure> foundation_structure(int elements) {
   const Section section{.E = 21000.0, .A = h * h, .I = h * h * h * h / 12.0, .height = h};
   builder.add_member(beam_between(0, 1, straight_axis(at[0], at[1]), section, {}, elements));
   fix(builder, 0);
-  builder.fix(builder.freedom(1, Freedom::z));
+  builder.fix(builder.dof(1, Dof::z));
   builder.add_load(builder.shared_rotation(0).value(), -1.0, LoadKind::proportional);
   builder.add_load(builder.shared_rotation(1).value(), 1.0, LoadKind::proportional);
   return builder.build();
@@ -306,8 +303,8 @@ ContactModel Channel::model() const {
                       .section = {.E = 2.1e4 * kN / (cm * cm), .A = h * h, .I = h * h * h * h / 12.0, .height = h},
                       .elements = elements});
   fix(builder, left);
-  builder.fix(builder.freedom(right, Freedom::z));
-  builder.add_load(builder.freedom(right, Freedom::x), -kN, LoadKind::proportional);
+  builder.fix(builder.dof(right, Dof::z));
+  builder.add_load(builder.dof(right, Dof::x), -kN, LoadKind::proportional);
   std::vector<TestWall> both;
   if (walls)
     both = {{.name = "upper", .side = Side::above, .profile = flat_profile(0.2 * cm)},

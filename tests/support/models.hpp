@@ -113,8 +113,8 @@ std::unique_ptr<Structure> pinned_semicircle(int elements, const BeamTheory& bea
 /// Pinned, chord 10000, rise 500, EA = 2e6, EI = 2e10 (after Clarke & Hancock 1990).
 std::unique_ptr<Structure> shallow_arch(int elements, const BeamTheory& beam = {});
 
-/// A freedom of a joint as an observable.
-std::shared_ptr<const Observable> displacement(const Structure& structure, Index node, Freedom which);
+/// A degree of freedom of a joint as an observable.
+std::shared_ptr<const Observable> displacement(const Structure& structure, Index node, Dof which);
 
 /// The rotation that the rigidly joined members at a joint share.
 std::shared_ptr<const Observable> joint_rotation(const Structure& structure, Index joint);
@@ -136,7 +136,7 @@ struct PathModel {
 };
 
 /// A bound of a joint's displacement that ends the branch.
-TargetValue stop_at(const Structure& structure, Index node, Freedom which, double value);
+TargetValue stop_at(const Structure& structure, Index node, Dof which, double value);
 
 /// A wall that all nodes of member 0 are tested against, on the face that looks at it or on the axis.
 struct TestWall {

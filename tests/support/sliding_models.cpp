@@ -32,9 +32,8 @@ std::shared_ptr<const Observable> SlidingModel::at(const std::string& member, do
   return std::make_shared<PlaceObservable>(*structure_, structure_->find(member, fraction), component);
 }
 
-std::shared_ptr<const Observable> SlidingModel::joint(Index node, Freedom which) const {
-  return std::make_shared<JointObservable>(*structure_, structure_->freedom(node, which),
-                                           JointObservable::What::motion);
+std::shared_ptr<const Observable> SlidingModel::joint(Index node, Dof which) const {
+  return std::make_shared<JointObservable>(*structure_, structure_->dof(node, which), JointObservable::What::motion);
 }
 
 SlidingModel SlidingChannel::model() const {
@@ -61,12 +60,12 @@ SlidingModel SlidingChannel::model() const {
     from = to;
     start = end;
   }
-  builder.fix(builder.freedom(left, Freedom::x));
+  builder.fix(builder.dof(left, Dof::x));
   for (const Index end : {left, right}) {
-    builder.fix(builder.freedom(end, Freedom::z));
+    builder.fix(builder.dof(end, Dof::z));
     if (clamped) builder.fix(builder.shared_rotation(end).value());
   }
-  builder.add_load(builder.freedom(right, Freedom::x), -kN, LoadKind::proportional);
+  builder.add_load(builder.dof(right, Dof::x), -kN, LoadKind::proportional);
   if (end_moment != 0.0)
     builder.add_load(builder.shared_rotation(left).value(), end_moment * kN * cm, LoadKind::proportional);
   std::vector<TestWall> walls;
@@ -86,9 +85,9 @@ SlidingModel SlidingFoundation::model() const {
                       .axis = straight_axis(a, b),
                       .section = {.E = 2.1e4, .A = 0.04, .I = 0.2 * 0.008 / 12.0, .height = 0.2},
                       .elements = elements});
-  builder.fix(builder.freedom(left, Freedom::x));
-  if (fixed) builder.fix(builder.freedom(right, Freedom::x));
-  for (const Index end : {left, right}) builder.fix(builder.freedom(end, Freedom::z));
+  builder.fix(builder.dof(left, Dof::x));
+  if (fixed) builder.fix(builder.dof(right, Dof::x));
+  for (const Index end : {left, right}) builder.fix(builder.dof(end, Dof::z));
   builder.add_load(builder.shared_rotation(left).value(), -1.0, LoadKind::proportional);
   builder.add_load(builder.shared_rotation(right).value(), 1.0, LoadKind::proportional);
   return {builder,
@@ -108,8 +107,8 @@ SlidingModel SlidingCylinder::model() const {
                       .order = 4,
                       .section = {.E = 2.1e4, .A = 0.1, .I = 0.001 / 12.0, .height = 0.1},
                       .elements = elements});
-  builder.fix(builder.freedom(left, Freedom::x));
-  for (const Index end : {left, right}) builder.fix(builder.freedom(end, Freedom::z));
+  builder.fix(builder.dof(left, Dof::x));
+  for (const Index end : {left, right}) builder.fix(builder.dof(end, Dof::z));
   builder.add_load(builder.shared_rotation(left).value(), -1.0, LoadKind::proportional);
   builder.add_load(builder.shared_rotation(right).value(), 1.0, LoadKind::proportional);
   return {builder,

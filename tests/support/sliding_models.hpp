@@ -39,7 +39,7 @@ class SlidingModel {
                                        MemberObservable::Component component) const;
 
   /// Displacement of a joint.
-  std::shared_ptr<const Observable> joint(Index node, Freedom which) const;
+  std::shared_ptr<const Observable> joint(Index node, Dof which) const;
 
  private:
   std::unique_ptr<SlidingStructure> structure_;
@@ -49,7 +49,7 @@ class SlidingModel {
 /// The channel of Selke & Kikuchi's second example [kN, cm]: a column of length 2 and square section 0.1 (EA = 210, EI
 /// = 0.175) on the x-axis between walls, λ pushes its right end, node 1, to the left. Members are called "0", "1" ….
 struct SlidingChannel {
-  /// A piece of the column: to where it reaches, and its elements.
+  /// An active set of the column: to where it reaches, and its elements.
   struct Member {
     double to;
     int elements;

@@ -18,13 +18,13 @@ struct SmoothToy : System {
   std::function<Matrix(const Vector&, double)> K{};
   std::function<Vector(const Vector&, double)> F_lambda{};
 
-  Index size(const Piece&) const override { return unknowns; }
+  Index size(const ActiveSet&) const override { return unknowns; }
   void residual(const State& s, Eigen::Ref<Vector> out) const override { out = F(s.x, s.lambda); }
   void linearize(const State& s, Linearization& out) const override {
     out.F = F(s.x, s.lambda);
     out.F_lambda = F_lambda(s.x, s.lambda);
     out.K = lower_triangle(K(s.x, s.lambda), -1.0);
-    out.pattern_of = s.piece;
+    out.pattern_of = s.active_set;
   }
   double energy(const State& s) const override { return potential ? potential(s.x, s.lambda) : 0.0; }
 };
@@ -177,60 +177,62 @@ struct LinearContactToy : System {
   Matrix G{};
   Vector gap0{};
 
-  std::vector<Index> closed(const Piece& piece) const {
+  std::vector<Index> closed(const ActiveSet& active_set) const {
     std::vector<Index> found;
-    for (std::size_t j = 0; j < piece.size(); ++j)
-      if (piece[j]) found.push_back(static_cast<Index>(j));
+    for (std::size_t j = 0; j < active_set.size(); ++j)
+      if (active_set[j]) found.push_back(static_cast<Index>(j));
     return found;
   }
 
-  Index size(const Piece& piece) const override { return A.rows() + multiplier_count(piece); }
-  Index multiplier_count(const Piece& piece) const override { return static_cast<Index>(closed(piece).size()); }
+  Index size(const ActiveSet& active_set) const override { return A.rows() + multiplier_count(active_set); }
+  Index multiplier_count(const ActiveSet& active_set) const override {
+    return static_cast<Index>(closed(active_set).size());
+  }
   void residual(const State& s, Eigen::Ref<Vector> F) const override {
     const Index n = A.rows();
     F.head(n) = A * s.x.head(n) - s.lambda * f;
     Index k = n;
-    for (const Index j : closed(s.piece)) {
+    for (const Index j : closed(s.active_set)) {
       F.head(n) -= s.x[k] * G.row(j).transpose();
       F[k++] = -(G.row(j).dot(s.x.head(n)) + gap0[j]);
     }
   }
   void linearize(const State& s, Linearization& out) const override {
-    const Index n = A.rows(), total = size(s.piece);
+    const Index n = A.rows(), total = size(s.active_set);
     Matrix K = Matrix::Zero(total, total);
     K.topLeftCorner(n, n) = A;
     Index k = n;
-    for (const Index j : closed(s.piece)) K.row(k++).head(n) = -G.row(j);
+    for (const Index j : closed(s.active_set)) K.row(k++).head(n) = -G.row(j);
     out.K = lower_triangle(K);
     out.F.resize(total);
     residual(s, out.F);
     out.F_lambda = Vector::Zero(total);
     out.F_lambda.head(n) = -f;
-    out.pattern_of = s.piece;
+    out.pattern_of = s.active_set;
   }
   double energy(const State& s) const override {
     const Vector x = s.x.head(A.rows());
     return 0.5 * x.dot(A * x) - s.lambda * f.dot(x);
   }
-  Vector weights(const Piece& piece) const override {
-    Vector w = Vector::Zero(size(piece));
+  Vector weights(const ActiveSet& active_set) const override {
+    Vector w = Vector::Zero(size(active_set));
     w.head(A.rows()).setConstant(1.0 / double(A.rows()));
     return w;
   }
 
-  Piece open_piece() const override { return Piece(static_cast<std::size_t>(G.rows()), 0); }
+  ActiveSet open_active_set() const override { return ActiveSet(static_cast<std::size_t>(G.rows()), 0); }
   Index contact_count() const { return G.rows(); }
   Vector guards(const State& s) const override {
     Vector values(G.rows());
     for (Index j = 0; j < values.size(); ++j) {
-      const auto k = multiplier_index(s.piece, j);
+      const auto k = multiplier_index(s.active_set, j);
       values[j] = k ? s.x[*k] : G.row(j).dot(s.x.head(A.rows())) + gap0[j];
     }
     return values;
   }
   Row guard_gradient(const State& s, Index j) const override {
     Row row{.dx = Vector::Zero(s.x.size()), .dlambda = 0.0};
-    if (const auto k = multiplier_index(s.piece, j))
+    if (const auto k = multiplier_index(s.active_set, j))
       row.dx[*k] = 1.0;
     else
       row.dx.head(A.rows()) = G.row(j).transpose();
@@ -241,13 +243,13 @@ struct LinearContactToy : System {
     force.head(A.rows()) = G.row(j).transpose();
     return force;
   }
-  std::optional<Index> multiplier_index(const Piece& piece, Index j) const override {
-    if (!piece[static_cast<std::size_t>(j)]) return std::nullopt;
+  std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const override {
+    if (!active_set[static_cast<std::size_t>(j)]) return std::nullopt;
     Index k = A.rows();
-    for (Index i = 0; i < j; ++i) k += piece[static_cast<std::size_t>(i)] ? 1 : 0;
+    for (Index i = 0; i < j; ++i) k += active_set[static_cast<std::size_t>(i)] ? 1 : 0;
     return k;
   }
-  Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override {
+  Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override {
     Vector moved = Vector::Zero(size(to));
     moved.head(A.rows()) = x.head(A.rows());
     for (Index j = 0; j < G.rows(); ++j) {

@@ -70,9 +70,9 @@ Arc arc_at(const Model& model, double w, double arc, std::vector<EventKind> kind
   Arc result;
   result.to.state.x = Vector::Zero(model.structure().size({}));
   const Index top = model.structure().members()[0].nodes.back();
-  result.to.state.x[*model.structure().unknown(model.structure().freedom(top, Freedom::z))] = w;
+  result.to.state.x[*model.structure().unknown(model.structure().dof(top, Dof::z))] = w;
   result.to.state.lambda = 2.0 * w;
-  result.to.state.piece = Piece(static_cast<std::size_t>(model.contact()->contact_count()), 0);
+  result.to.state.active_set = ActiveSet(static_cast<std::size_t>(model.contact()->contact_count()), 0);
   result.to.arc = arc;
   result.to.iterations = 3;
   result.to.residual = 1e-13;

@@ -102,7 +102,7 @@ TEST_F(FalsifiedRun, APenetrationIsCaught) {
   const std::size_t where = pressed_point();
   const Structure& structure = traced_.model().structure();
   // The middle of the column moved through both walls, 0.2 away.
-  const Index w = *structure.unknown(structure.freedom(structure.members()[0].nodes[8], Freedom::z));
+  const Index w = *structure.unknown(structure.dof(structure.members()[0].nodes[8], Dof::z));
   for (const double by : {1.0, -1.0}) {
     const Failure first = first_failure([&](Record& record) { record.points[where].state.x[w] += by; });
     EXPECT_EQ(first.step, traced_.record().points[where].step);
@@ -230,7 +230,7 @@ TEST(FalsifiedSlidingRun, APlaceAMomentAndAPenetrationAreCaught) {
     const std::string what = verdict.findings.first().value_or(Failure{}).what;
     return what.substr(0, what.find(':'));
   };
-  const auto& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());
+  const auto& on = static_cast<const SlidingContactLayout&>(*state.active_set.layout());
   const Index size = state.x.size(), m = on.mesh().breakpoints();
   const auto [run, position] = on.mesh().breakpoint(0);
   const NodeUnknowns touching = on.mesh().node_unknowns(run, position);

@@ -270,7 +270,7 @@ path = { step = 5.0, max_step = 0.05, stop = { off = [-0.6, 0.6] } }
 
 // The apex of a steep truss gives way sideways alone where its stiffness in that direction, the whole row of it, is
 // zero: by round-off it is on either side of zero at the place itself.
-TEST(Verify, AFreedomThatIsCriticalByItselfIsSeen) {
+TEST(Verify, ADofThatIsCriticalByItselfIsSeen) {
   for (const double height : {3.0, 4.0, 5.0, 6.3, 7.0, 8.0}) {
     SCOPED_TRACE(height);
     const TracedDeck traced(fmt::format(R"(

@@ -88,8 +88,7 @@ TEST(DeckReader, ReadsSupportsAndLoads) {
   const Deck deck = full();
 
   EXPECT_EQ(deck.supports.at(1).point, "D");
-  EXPECT_EQ(deck.supports.at(1).directions,
-            (std::vector<Freedom>{Freedom::z, Freedom::thickness, Freedom::thickness2}));
+  EXPECT_EQ(deck.supports.at(1).directions, (std::vector<Dof>{Dof::z, Dof::thickness, Dof::thickness2}));
   const auto& end = std::get<PointLoad>(deck.loads.at(0).action);
   EXPECT_EQ(end.at, (Place{.name = "B"}));
   EXPECT_EQ(end.force, (Vector{-1.0, 0.5}));

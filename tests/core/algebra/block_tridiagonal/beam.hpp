@@ -19,8 +19,8 @@ struct Beam {
   Beam(Index of_elements, std::vector<Index> of_supports)
       : elements(of_elements), supports(std::move(of_supports)), unknown_(static_cast<std::size_t>(3 * elements + 3)) {
     Index next = 0;
-    for (Index freedom = 0; freedom < 3 * elements + 3; ++freedom)
-      unknown_[static_cast<std::size_t>(freedom)] = is_held(freedom) ? -1 : next++;
+    for (Index dof = 0; dof < 3 * elements + 3; ++dof)
+      unknown_[static_cast<std::size_t>(dof)] = is_held(dof) ? -1 : next++;
     assemble(next);
     translation_free.resize(static_cast<std::size_t>(next));
     for (Index node = 0; node <= elements; ++node) {
@@ -30,15 +30,15 @@ struct Beam {
     }
   }
 
-  Index unknown(Index freedom) const { return unknown_[static_cast<std::size_t>(freedom)]; }
+  Index unknown(Index dof) const { return unknown_[static_cast<std::size_t>(dof)]; }
   Index deflection(Index eighths) const { return unknown(3 * (elements * eighths / 8) + 1); }
 
  private:
-  bool is_held(Index freedom) const {
+  bool is_held(Index dof) const {
     const auto first_of = [&](Index at) { return 3 * (elements * at / 8); };
     if (supports.empty()) return false;
-    return freedom == first_of(supports.front()) ||
-           std::any_of(supports.begin(), supports.end(), [&](Index at) { return freedom == first_of(at) + 1; });
+    return dof == first_of(supports.front()) ||
+           std::any_of(supports.begin(), supports.end(), [&](Index at) { return dof == first_of(at) + 1; });
   }
 
   void assemble(Index unknowns) {

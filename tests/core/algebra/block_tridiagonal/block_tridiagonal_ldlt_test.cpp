@@ -20,23 +20,23 @@ using test::Beam;
 using test::lower_triangle;
 using test::Numbers;
 
-// A chain of nodes with `freedoms` unknowns each, numbered at random; indefinite.
-Matrix chain(Index nodes, Index freedoms, Numbers& numbers) {
-  const Index n = nodes * freedoms;
+// A chain of nodes with `degrees of freedom` unknowns each, numbered at random; indefinite.
+Matrix chain(Index nodes, Index dofs, Numbers& numbers) {
+  const Index n = nodes * dofs;
   std::vector<Index> place(static_cast<std::size_t>(nodes));
   std::iota(place.begin(), place.end(), Index{0});
   for (std::size_t k = place.size(); k > 1; --k)
     std::swap(place[k - 1], place[static_cast<std::size_t>(0.4999 * (numbers() + 1.0) * double(k))]);
-  const auto first = [&](Index node) { return freedoms * place[static_cast<std::size_t>(node)]; };
+  const auto first = [&](Index node) { return dofs * place[static_cast<std::size_t>(node)]; };
   Matrix A = Matrix::Zero(n, n);
   for (Index node = 0; node < nodes; ++node) {
-    const Matrix block = numbers.matrix(freedoms, freedoms);
-    A.block(first(node), first(node), freedoms, freedoms) = block + block.transpose();
-    A.diagonal().segment(first(node), freedoms) += numbers.vector(freedoms) * 4.0;
+    const Matrix block = numbers.matrix(dofs, dofs);
+    A.block(first(node), first(node), dofs, dofs) = block + block.transpose();
+    A.diagonal().segment(first(node), dofs) += numbers.vector(dofs) * 4.0;
     if (node + 1 == nodes) continue;
-    const Matrix coupling = numbers.matrix(freedoms, freedoms);
-    A.block(first(node), first(node + 1), freedoms, freedoms) = coupling;
-    A.block(first(node + 1), first(node), freedoms, freedoms) = coupling.transpose();
+    const Matrix coupling = numbers.matrix(dofs, dofs);
+    A.block(first(node), first(node + 1), dofs, dofs) = coupling;
+    A.block(first(node + 1), first(node), dofs, dofs) = coupling.transpose();
   }
   return A;
 }
@@ -89,10 +89,10 @@ double weighted(const Matrix& A, const Blocks& groups, const Vector& v) {
 
 TEST(BlockTridiagonalLdlt, GroupsOfAChainAreItsNodes) {
   Numbers numbers(11);
-  for (const Index freedoms : {1, 2, 3, 5})
+  for (const Index dofs : {1, 2, 3, 5})
     for (const Index nodes : {1, 3, 4, 7, 40}) {
-      const auto groups = find_blocks(lower_triangle(chain(nodes, freedoms, numbers)), 0, freedoms);
-      ASSERT_TRUE(groups) << nodes << " nodes of " << freedoms;
+      const auto groups = find_blocks(lower_triangle(chain(nodes, dofs, numbers)), 0, dofs);
+      ASSERT_TRUE(groups) << nodes << " nodes of " << dofs;
       EXPECT_EQ(static_cast<Index>(groups->size()), nodes);
     }
 }
@@ -127,10 +127,10 @@ TEST(BlockTridiagonalLdlt, PartsOfAChainNeedNotHangTogether) {
 
 TEST(BlockTridiagonalLdlt, InertiaAndSolutionsOfIndefiniteChainsAreThoseOfTheDenseOnes) {
   Numbers numbers(12);
-  for (const Index freedoms : {1, 2, 3, 4, 5, 6})
+  for (const Index dofs : {1, 2, 3, 4, 5, 6})
     for (const Index nodes : {1, 3, 4, 5, 30, 64}) {
-      SCOPED_TRACE(std::to_string(nodes) + " nodes of " + std::to_string(freedoms));
-      const Matrix A = chain(nodes, freedoms, numbers);
+      SCOPED_TRACE(std::to_string(nodes) + " nodes of " + std::to_string(dofs));
+      const Matrix A = chain(nodes, dofs, numbers);
       const SparseMatrix lower = lower_triangle(A);
       const Blocks groups = find_blocks(lower, 0, BlockTridiagonalLdlt::widest).value();
       BlockTridiagonalLdlt ldlt(lower, groups);
@@ -320,13 +320,13 @@ TEST(Ldlt, SolvesChainsWithMultipliers) {
   Numbers numbers(13);
   for (const Index contacts : {1, 5, 20}) {
     SCOPED_TRACE(contacts);
-    const Index nodes = 20, freedoms = 3, n = nodes * freedoms;
+    const Index nodes = 20, dofs = 3, n = nodes * dofs;
     Matrix A = Matrix::Zero(n + contacts, n + contacts);
-    A.topLeftCorner(n, n) = chain(nodes, freedoms, numbers) + 20.0 * Matrix::Identity(n, n);
+    A.topLeftCorner(n, n) = chain(nodes, dofs, numbers) + 20.0 * Matrix::Identity(n, n);
     for (Index j = 0; j < contacts; ++j) {
-      const Vector gradient = numbers.vector(freedoms);
-      A.block(n + j, freedoms * (j * nodes / contacts), 1, freedoms) = -gradient.transpose();
-      A.block(freedoms * (j * nodes / contacts), n + j, freedoms, 1) = -gradient;
+      const Vector gradient = numbers.vector(dofs);
+      A.block(n + j, dofs * (j * nodes / contacts), 1, dofs) = -gradient.transpose();
+      A.block(dofs * (j * nodes / contacts), n + j, dofs, 1) = -gradient;
     }
     const SparseMatrix lower = lower_triangle(A);
     Ldlt ldlt;
