@@ -136,10 +136,18 @@ class SlidingMesh {
   /// Energy of the element behind a node, the potential of the load along it included.
   virtual double element_energy(Index strand, Index position, const MeshState& now) const = 0;
 
-  /// What the nodes exert on the element behind a node: x, z and moment at its first and at its second end, the load
-  /// along it included.
+  /// What the nodes exert on the element behind a node: x, z and moment at its first and at its second end, the loads
+  /// on it included.
   using EndForces = std::array<Eigen::Vector3d, 2>;
   virtual EndForces end_forces(Index strand, Index position, const MeshState& now) const = 0;
+
+  /// Returns the point loads inside the element after a node, in the order of their places.
+  struct PointLoad {
+    double s = 0.0;             ///< material coordinate [length]
+    Vec2 force = Vec2::Zero();  ///< [force]
+    bool on_wall = false;       ///< a zone of contact hands it on to the wall: it bends nothing
+  };
+  virtual std::vector<PointLoad> point_loads_in(Index strand, Index position, const MeshState& now) const = 0;
 
   /// What point loads and springs exert on an end of a strand: along x, and along z [force]. With derivatives by x and
   /// λ.

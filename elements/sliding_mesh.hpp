@@ -41,6 +41,7 @@ class SlidingStructureMesh final : public SlidingMesh {
     return respond(strand, position, now, false).energy;
   }
   EndForces end_forces(Index strand, Index position, const MeshState& now) const override;
+  std::vector<PointLoad> point_loads_in(Index strand, Index position, const MeshState& now) const override;
   EndLoad load_on_end(Index strand, bool last, const MeshState& now) const override;
   AxisPlace place(const MaterialPoint& point, const MeshState& now) const override;
   PlaceGradient place_gradient(const MaterialPoint& point, const MeshState& now) const override;

@@ -76,6 +76,16 @@ SlidingMesh::EndForces SlidingStructureMesh::end_forces(Index strand, Index posi
   return {force.head<3>(), force.tail<3>()};
 }
 
+std::vector<SlidingMesh::PointLoad> SlidingStructureMesh::point_loads_in(Index strand, Index position,
+                                                                         const MeshState& now) const {
+  std::vector<PointLoad> loads;
+  for (const InnerLoad& load : inner_loads_)
+    if (load.strand == strand && element_of(load, now) == position)
+      loads.push_back({.s = load.s, .force = load.load->at(now.lambda).value, .on_wall = load.first != held});
+  std::sort(loads.begin(), loads.end(), [](const PointLoad& a, const PointLoad& b) { return a.s < b.s; });
+  return loads;
+}
+
 Index SlidingStructureMesh::element_at(const MaterialPoint& point, const MeshState& now) const {
   const auto& places = mesh_of(point.strand).nodes;
   Index low = 0, high = static_cast<Index>(places.size()) - 1;

@@ -163,17 +163,20 @@ std::vector<ShapePoint> SlidingMeshBody::shape(std::size_t member, const State& 
   const SlidingMesh& mesh = mesh_of(state);
   const MeshState now = mesh_state_of(state);
   std::vector<double> fractions = sample_fractions(structure_.members()[member]);
-  std::vector<MemberStretch> stretches;
+  std::vector<MemberStretch> stretches, of_element;
   for (const SlidingStructure::MemberPart& part : sliding_.parts_of(name(member))) {
     const double rate = (part.last_fraction - part.first_fraction) / (part.to - part.from);
     const auto fraction = [&](double S) { return part.first_fraction + rate * (S - part.from); };
     const auto first = static_cast<std::ptrdiff_t>(stretches.size());
     for (Index position = 0; position + 1 < mesh.nodes(part.strand); ++position) {
-      MemberStretch stretch = sliding_stretch(sliding_, part.strand, position, state);
-      if (stretch.to <= part.from || stretch.from >= part.to) continue;
-      stretch.from = fraction(stretch.from);
-      stretch.to = fraction(stretch.to);
-      stretches.push_back(part.is_reversed() ? stretch.reversed() : stretch);
+      of_element.clear();
+      add_sliding_stretches(sliding_, part.strand, position, state, of_element);
+      for (MemberStretch& stretch : of_element) {
+        if (stretch.to <= part.from || stretch.from >= part.to) continue;
+        stretch.from = fraction(stretch.from);
+        stretch.to = fraction(stretch.to);
+        stretches.push_back(part.is_reversed() ? stretch.reversed() : stretch);
+      }
     }
     if (part.is_reversed()) std::reverse(stretches.begin() + first, stretches.end());
     for (Index k = 0; k < mesh.breakpoints(); ++k)

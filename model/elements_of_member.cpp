@@ -77,11 +77,15 @@ void SlidingElements::add_stretches(const State& state, Index element, std::vect
       continue;
     }
     const Index position = part.is_reversed() ? here - 1 - element : element;
-    MemberStretch stretch = sliding_stretch(structure_, part.strand, position, state);
+    const auto first = static_cast<std::ptrdiff_t>(to.size());
+    add_sliding_stretches(structure_, part.strand, position, state, to);
     const double rate = (part.last_fraction - part.first_fraction) / (part.to - part.from);
-    stretch.from = part.first_fraction + rate * (stretch.from - part.from);
-    stretch.to = part.first_fraction + rate * (stretch.to - part.from);
-    to.push_back(part.is_reversed() ? stretch.reversed() : stretch);
+    for (auto stretch = to.begin() + first; stretch != to.end(); ++stretch) {
+      stretch->from = part.first_fraction + rate * (stretch->from - part.from);
+      stretch->to = part.first_fraction + rate * (stretch->to - part.from);
+      if (part.is_reversed()) *stretch = stretch->reversed();
+    }
+    if (part.is_reversed()) std::reverse(to.begin() + first, to.end());
     return;
   }
 }

@@ -74,12 +74,26 @@ ShapePoint SlidingMemberForce::place(const State& state) const {
   if (is_reversed_) {
     Index position = mesh.nodes(at_.strand) - 2;
     while (position > 0 && (node(position) > at_.s + same || node(position) >= begin_ - same)) --position;
-    return sliding_stretch(structure_, at_.strand, position, state).reversed().at(at_.s);
+    return place_in(position, state);
   }
   Index position = 0;
   const auto end = [&] { return node(position + 1); };
   while (position + 2 < mesh.nodes(at_.strand) && (end() < at_.s - same || end() <= begin_ + same)) ++position;
-  return sliding_stretch(structure_, at_.strand, position, state).at(at_.s);
+  return place_in(position, state);
+}
+
+// Before a point load that acts there, as the member travels.
+ShapePoint SlidingMemberForce::place_in(Index element, const State& state) const {
+  std::vector<MemberStretch> stretches;
+  add_sliding_stretches(structure_, at_.strand, element, state, stretches);
+  if (is_reversed_) {
+    const auto ends_there = [&](const MemberStretch& stretch) { return stretch.from <= at_.s; };
+    const auto found = std::find_if(stretches.rbegin(), stretches.rend(), ends_there);
+    return (found != stretches.rend() ? *found : stretches.front()).reversed().at(at_.s);
+  }
+  const auto ends_there = [&](const MemberStretch& stretch) { return stretch.to >= at_.s; };
+  const auto found = std::find_if(stretches.begin(), stretches.end(), ends_there);
+  return (found != stretches.end() ? *found : stretches.back()).at(at_.s);
 }
 
 Vector SlidingMemberForce::steps(const State& state) const { return moves_alike(structure_, state); }

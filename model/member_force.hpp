@@ -54,6 +54,7 @@ class SlidingMemberForce final : public MemberForce {
 
  private:
   ShapePoint place(const State& state) const override;
+  ShapePoint place_in(Index element, const State& state) const;
   Vector steps(const State& state) const override;
 
   const SlidingStructure& structure_;

@@ -112,7 +112,7 @@ double MemberGreatest::value(const State& state) const {
 double MemberGreatest::again(const State& state, const Found& found) const {
   std::vector<MemberStretch> stretches;
   member_->add_stretches(state, found.element, stretches);
-  const MemberStretch& stretch = stretches[found.stretch];
+  const MemberStretch& stretch = stretches[std::min(found.stretch, stretches.size() - 1)];  // a load may leave it
   double xi = found.xi;
   if (found.kind == Found::Kind::end) xi = (found.fraction - stretch.from) / (stretch.to - stretch.from);
   if (what_ == What::value) return std::abs(quantity_(stretch, xi));

@@ -44,6 +44,17 @@ AxisCurve AxisCurve::reversed() const {
   return curve;
 }
 
+// The same cubic, with the derivatives by its part of ξ.
+AxisCurve AxisCurve::part(double xi1, double xi2) const {
+  AxisCurve curve;
+  curve.first_ = position(xi1);
+  curve.chord_ = position(xi2) - curve.first_;
+  curve.derivative1_ = (xi2 - xi1) * derivative(xi1);
+  curve.derivative2_ = (xi2 - xi1) * derivative(xi2);
+  curve.angle1_ = angle(xi1);
+  return curve;
+}
+
 Vec2 AxisCurve::position(double xi) const {
   const double x2 = xi * xi, x3 = x2 * xi;
   return first_ + (3.0 * x2 - 2.0 * x3) * chord_ + (xi - 2.0 * x2 + x3) * derivative1_ + (x3 - x2) * derivative2_;
@@ -55,12 +66,12 @@ Vec2 AxisCurve::integral_to(double xi) const {
          (0.25 * x4 - x3 / 3.0) * derivative2_;
 }
 
-double AxisCurve::angle(double xi) const {
+Vec2 AxisCurve::derivative(double xi) const {
   const double x2 = xi * xi;
-  return angle_near(
-      6.0 * (xi - x2) * chord_ + (1.0 - 4.0 * xi + 3.0 * x2) * derivative1_ + (3.0 * x2 - 2.0 * xi) * derivative2_,
-      angle1_);
+  return 6.0 * (xi - x2) * chord_ + (1.0 - 4.0 * xi + 3.0 * x2) * derivative1_ + (3.0 * x2 - 2.0 * xi) * derivative2_;
 }
+
+double AxisCurve::angle(double xi) const { return angle_near(derivative(xi), angle1_); }
 
 // What was behind a section is before it then.
 MemberStretch MemberStretch::reversed() const {
@@ -85,6 +96,40 @@ double MemberStretch::balanced_moment(double xi) const {
 // What the interpolation leaves open at the second end is shared out evenly.
 double MemberStretch::moment(double xi) const {
   return balanced_moment(xi) + xi * (second.moment - balanced_moment(1.0));
+}
+
+// Moments follow from the first end by balance; what that leaves open at the second end is shared out evenly.
+void add_between_loads(const MemberStretch& whole, std::span<const PointLoadInside> loads,
+                       std::vector<MemberStretch>& to) {
+  if (loads.empty()) {
+    to.push_back(whole);
+    return;
+  }
+  Vec2 even = whole.first.force - whole.second.force;  // the load that is constant along the axis
+  for (const PointLoadInside& load : loads) even -= load.force;
+  const auto xi_of = [&](double place) { return std::clamp((place - whole.from) / (whole.to - whole.from), 0.0, 1.0); };
+  const std::size_t first = to.size();
+  Resultant carried = whole.first;
+  double begin = whole.from;
+  for (std::size_t i = 0; i <= loads.size(); ++i) {
+    const double end = i < loads.size() ? std::clamp(loads[i].at, begin, whole.to) : whole.to;
+    const double a = xi_of(begin), b = xi_of(end);
+    if (a < b) {
+      MemberStretch part{.from = begin, .to = end, .now = whole.now.part(a, b), .rest = whole.rest.part(a, b)};
+      part.first = carried;
+      part.second.force = carried.force - (b - a) * even;
+      part.second.moment = part.balanced_moment(1.0);
+      carried = part.second;
+      to.push_back(part);
+    }
+    if (i < loads.size()) carried.force -= loads[i].force;
+    begin = end;
+  }
+  const double open = whole.second.moment - carried.moment;
+  for (std::size_t i = first; i < to.size(); ++i) {
+    to[i].first.moment += xi_of(to[i].from) * open;
+    to[i].second.moment += xi_of(to[i].to) * open;
+  }
 }
 
 ShapePoint MemberStretch::at(double fraction) const {

@@ -33,11 +33,16 @@ class AxisCurve {
   /// The same, travelled the other way.
   AxisCurve reversed() const;
 
+  /// Between two of its places, ξ1 < ξ2.
+  AxisCurve part(double xi1, double xi2) const;
+
   Vec2 position(double xi) const;     ///< ξ ∈ [0, 1]
   Vec2 integral_to(double xi) const;  ///< ∫ position dξ from 0
   double angle(double xi) const;      ///< of the tangent, with the winding number of angle1 [rad]
 
  private:
+  Vec2 derivative(double xi) const;
+
   Vec2 first_ = Vec2::Zero(), chord_ = Vec2::UnitX();
   Vec2 derivative1_ = Vec2::UnitX(), derivative2_ = Vec2::UnitX();
   double angle1_ = 0.0;
@@ -71,6 +76,17 @@ struct MemberStretch {
   /// M at ξ as it follows from the first end and the forces.
   double balanced_moment(double xi) const;
 };
+
+/// A point load on a stretch between its ends.
+struct PointLoadInside {
+  double at = 0.0;            ///< as MemberStretch::from and to
+  Vec2 force = Vec2::Zero();  ///< [force]
+};
+
+/// Divides a stretch at the point loads that act on it, which ascend: its forces jump there. `whole.first` and
+/// `whole.second` balance the loads and a load that is constant along the axis.
+void add_between_loads(const MemberStretch& whole, std::span<const PointLoadInside> loads,
+                       std::vector<MemberStretch>& to);
 
 /// The points at these fractions, which ascend, of a member of which these stretches are known. Where the stretches
 /// that meet carry different forces (a load, a contact, a support), the point is there twice, before and behind.

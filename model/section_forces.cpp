@@ -110,20 +110,32 @@ void add_stretches(const TiedMember& member, int k, const State& state, std::vec
   }
 }
 
-MemberStretch sliding_stretch(const SlidingStructure& body, Index strand, Index position, const State& state) {
+void add_sliding_stretches(const SlidingStructure& body, Index strand, Index position, const State& state,
+                           std::vector<MemberStretch>& to) {
   const SlidingMesh& mesh = mesh_of(state);
   const MeshState now = mesh_state_of(state);
   const double S1 = mesh.coordinate(strand, position, now.s), S2 = mesh.coordinate(strand, position + 1, now.s);
   const AxisPlace a = mesh.node(strand, position, now), b = mesh.node(strand, position + 1, now);
   const AxisPlace a0 = body.undeformed({.strand = strand, .s = S1}, true),
                   b0 = body.undeformed({.strand = strand, .s = S2}, true);
-  const SlidingMesh::EndForces forces = mesh.end_forces(strand, position, now);
-  return {.from = S1,
-          .to = S2,
-          .now = {a.position, b.position, a.angle, b.angle},
-          .rest = {a0.position, b0.position, a0.angle, b0.angle},
-          .first = {.force = -forces[0].head<2>(), .moment = -forces[0][2]},
-          .second = {.force = forces[1].head<2>(), .moment = forces[1][2]}};
+  SlidingMesh::EndForces ends = mesh.end_forces(strand, position, now);
+  std::vector<PointLoadInside> loads;
+  for (const SlidingMesh::PointLoad& load : mesh.point_loads_in(strand, position, now)) {
+    if (!load.on_wall) {
+      loads.push_back({.at = load.s, .force = load.force});
+      continue;
+    }
+    const double second = (load.s - S1) / (S2 - S1);
+    ends[0].head<2>() += (1.0 - second) * load.force;
+    ends[1].head<2>() += second * load.force;
+  }
+  const MemberStretch whole{.from = S1,
+                            .to = S2,
+                            .now = {a.position, b.position, a.angle, b.angle},
+                            .rest = {a0.position, b0.position, a0.angle, b0.angle},
+                            .first = {.force = -ends[0].head<2>(), .moment = -ends[0][2]},
+                            .second = {.force = ends[1].head<2>(), .moment = ends[1][2]}};
+  add_between_loads(whole, loads, to);
 }
 
 }  // namespace arcwall

@@ -21,8 +21,9 @@ struct TiedMember {
 /// One stretch for element k of a member, two of an element with a middle node.
 void add_stretches(const TiedMember& member, int k, const State& state, std::vector<MemberStretch>& to);
 
-/// The element behind a node of a strand, in a state whose layout is a SlidingLayout; `from` and `to` are its material
-/// coordinates.
-MemberStretch sliding_stretch(const SlidingStructure& body, Index strand, Index position, const State& state);
+/// The element after a node of a strand, in a state whose layout is a SlidingLayout; `from` and `to` are material
+/// coordinates. One stretch, and one more for each point load inside the element.
+void add_sliding_stretches(const SlidingStructure& body, Index strand, Index position, const State& state,
+                           std::vector<MemberStretch>& to);
 
 }  // namespace arcwall

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/derivative_check.hpp"
@@ -59,6 +60,25 @@ double last(const TracedDeck& run, const std::string& name) {
   return 0.0;
 }
 
+// A clamped strip over a floor at a thousandth of its length 10, under the force 1 at a place of it. EI = 1.
+std::string strip_over_floor(const std::string& elements, const std::string& place, const std::string& load) {
+  return R"(
+title = "A strip between clamps, pressed onto a floor"
+material.m = { E = 1.2e5 }
+section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { a = [0.0, 0.0], b = [10.0, 0.0] }
+support = { a = ["x", "z", "rotation"], b = ["z", "rotation"] }
+member.beam = { from = "a", to = "b", theory = "euler-bernoulli", material = "m", section = "s", elements = )" +
+         elements + R"( }
+load = [{ at = "beam:)" +
+         place + R"(", force = [0.0, -1.0] }]
+wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = -0.01 } }]
+path = { step = 0.1, stop = { lambda = [-1.0, )" +
+         load + "] } }\n" + monitor("M0", "beam:0", "moment") + monitor("M", "beam:" + place, "moment") +
+         monitor("M1", "beam:1", "moment") + monitor("R", "a", "reaction-z") +
+         "[[monitor]]\nname = \"most\"\nmember = \"beam\"\ncomponent = \"max-moment\"\n";
+}
+
 // Equilibrium of the cut-off part, with the places where the run has them.
 void expect_balance(const TracedDeck& run) {
   const Vec2 F(-0.3, -1.0);
@@ -106,10 +126,50 @@ TEST(MemberForce, BalancesOnAMeshThatSlides) {
   }
 }
 
+// Once the middle rests on the floor it bears all that is added: |M| stays P L/8 = 24 EI g/L² at the clamps and there,
+// though the contact lies where the load does.
+TEST(MemberForce, StaysWhereTheFloorBearsTheLoad) {
+  constexpr double most = 24.0 * 0.01 / 100.0;
+  for (const char* elements : {"10", "40"}) {
+    SCOPED_TRACE(elements);
+    const TracedDeck run(strip_over_floor(elements, "0.5", "3.0"));
+    ASSERT_EQ(run.record().points.back().forces.size(), 1U);
+    EXPECT_NEAR(last(run, "most"), most, 1e-4 * most);
+    EXPECT_NEAR(last(run, "M"), most, 1e-4 * most);
+    EXPECT_NEAR(last(run, "M0"), -most, 1e-4 * most);
+  }
+}
+
+// A load and a contact within one element: M is piecewise linear in between, by the reactions and by hand.
+TEST(MemberForce, BalancesBesideAPointLoadInsideAnElement) {
+  constexpr double a = 4.0;
+  for (const char* load : {"0.004", "0.02", "3.0"}) {
+    SCOPED_TRACE(load);
+    const TracedDeck run(strip_over_floor("10", "0.4", load));
+    const auto& end = run.record().points.back();
+    ASSERT_EQ(end.forces.size(), 1U);
+    const double c = 10.0 * end.forces[0].label.fraction;
+    EXPECT_GT(c, a);
+    EXPECT_LT(c, a + 0.6);
+    const double at_load = last(run, "M0") + a * last(run, "R");
+    const double at_contact = last(run, "M0") + c * last(run, "R") - (c - a) * end.lambda;
+    EXPECT_NEAR(last(run, "M"), at_load, 1e-4 * at_load);
+    const double most = std::max({at_load, at_contact, -last(run, "M0"), -last(run, "M1")});
+    EXPECT_NEAR(last(run, "most"), most, 1e-4 * most);
+  }
+}
+
 TEST(MemberForce, HasGradients) {
   expect_gradients(TracedDeck(clamped_strip("theory = \"euler-bernoulli\"")));
   expect_gradients(TracedDeck(clamped_strip("theory = \"reissner\"")));
   expect_gradients(TracedDeck(clamped_strip("theory = \"euler-bernoulli\"", far_wall)));
+}
+
+TEST(MemberForce, HasGradientsAtAPointLoadInsideAnElement) {
+  const TracedDeck run(strip_over_floor("10", "0.4", "0.004"));
+  const MonitorColumn& at_load = run.model().monitors()[1];
+  ASSERT_EQ(at_load.name, "M");
+  EXPECT_LE(check_gradient(*at_load.quantity, run.last()), 1e-6);
 }
 
 TEST(MemberForce, CanStopAPath) {
