@@ -41,12 +41,11 @@ class ZeroSearch {
   }
 
   LocatedEvent locate(EventPlace place) {
-    const auto root = bracketed();
-    if (!root) return {.place = place, .failure = failure_};
-    const auto best = sharpened(seen_.find(*root), place.half_width);
-    place.t = best->first;
-    if (is_end(best)) return {.place = place, .point = point_at(best)};
-    const auto there = best->second.between ? std::optional(best) : look(best->first);
+    const auto zero = find(place.half_width);
+    if (!zero) return {.place = place, .failure = failure_};
+    place.t = (*zero)->first;
+    if (is_end(*zero)) return {.place = place, .point = point_at(*zero)};
+    const auto there = (*zero)->second.between ? zero : look(place.t);
     if (!there) return {.place = place, .failure = failure_};
     LocatedEvent located{.place = place, .point = std::move(*(*there)->second.between)};
     seen_.clear();
@@ -109,24 +108,26 @@ class ZeroSearch {
     }
   }
 
-  // Zero where the bracket need be no narrower.
-  std::optional<double> value(double t) {
-    // Near the zero it need not be closed from both sides, unless another lies at the start.
-    const double near_zero = std::abs(at_start_) > 1e-2 * range_ ? 1e-4 : 0.0;
-    // Between near points a value that is off their straight line by more than they differ is round-off.
-    constexpr double straight = 1e-3;
-    const auto behind = seen_.lower_bound(t), before = std::prev(behind);
-    const double width = behind->first - before->first, change = behind->second.v - before->second.v;
-    const double expected = before->second.v + (t - before->first) / width * change;
-    const auto at = look(t);
-    if (!at) return std::nullopt;
-    const double v = (*at)->second.v;
-    if (width <= straight && std::abs(v - expected) > std::abs(change)) blurred_ = width;
-    return blurred_ > 0.0 || std::abs(v) <= near_zero * range_ ? 0.0 : v;
+  // The place, and the distance from it within which the zero is. Where the value goes smoothly through zero, secants
+  // tell it in fewest points, and round-off over the slope is left uncertain. Where it jumps over zero, nothing is
+  // known but the bracket.
+  std::optional<Place> find(double& half_width) {
+    // Another zero may lie at the start.
+    const double near = std::abs(at_start_) > 1e-2 * range_ ? 1e-4 * range_ : 0.0;
+    auto root = bracketed(near);
+    if (root && root->half_width == 0.0 && blurred_ == 0.0) {
+      if (const auto smooth = by_secants(seen_.find(root->at), near, half_width)) return smooth;
+      root = bracketed(0.0);
+    }
+    if (!root) return std::nullopt;
+    half_width = std::max({tolerance(), blurred_, 2.0 * root->half_width});
+    return seen_.find(root->at);
   }
 
-  // By bracketing, first where the cubic turns.
-  std::optional<double> bracketed() {
+  // By bracketing, first where the cubic turns, until a value is as near zero as `near`: then the bracket has no width.
+  std::optional<Root> bracketed(double near) {
+    best_ = seen_.end();
+    seen_.erase(std::next(seen_.begin()), std::prev(seen_.end()));
     double from = 0.0, at_from = at_start_, until = 1.0, at_until = at_end_;
     const double v0 = detector_.value(segment_.from());
     if (const auto turn = detector_.integral ? turn_of(detector_.integral, segment_, v0, at_end_) : std::nullopt) {
@@ -137,32 +138,61 @@ class ZeroSearch {
       (before ? from : until) = *turn;
       (before ? at_from : at_until) = v;
     }
-    const auto root = bracketed_root([this](double t) { return value(t); }, from, at_from, until, at_until,
+    const auto root = bracketed_root([&](double t) { return value(t, near); }, from, at_from, until, at_until,
                                      tools_.options.localisation);
-    return root && (seen_.contains(root->at) || look(root->at)) ? std::optional(root->at) : std::nullopt;
+    return root && (seen_.contains(root->at) || look(root->at)) ? root : std::nullopt;
   }
 
-  // By secants, as long as they make the value much less: then it is round-off.
-  Place sharpened(Place best, double& half_width) {
+  // Zero where the bracket need be no narrower.
+  std::optional<double> value(double t, double near) {
+    // A value that lies beyond those of near points by more than these differ is round-off. A jump stays between them.
+    constexpr double near_by = 1e-3;
+    const auto behind = seen_.lower_bound(t), before = std::prev(behind);
+    const double width = behind->first - before->first;
+    const auto [low, high] = std::minmax({before->second.v, behind->second.v});
+    const auto at = look(t);
+    if (!at) return std::nullopt;
+    const double v = (*at)->second.v;
+    if (width <= near_by && std::max(low - v, v - high) > high - low) blurred_ = width;
+    return blurred_ > 0.0 || std::abs(v) <= near ? 0.0 : v;
+  }
+
+  // By secants, as long as they make the value much less: then it is round-off, or it jumps, and there is no zero.
+  std::optional<Place> by_secants(Place best, double near, double& half_width) {
     constexpr double much_less = 0.1;
-    best_ = best;
-    half_width = std::max(tolerance(), blurred_);
-    for (int secant = 0; secant < 4 && blurred_ == 0.0 && std::abs(best->second.v) > tolerance() * range_; ++secant) {
+    half_width = tolerance();
+    for (int secant = 0; secant < 4 && std::abs(best->second.v) > tolerance() * range_; ++secant) {
+      best_ = best;
       const auto behind = std::next(best), before = best == seen_.begin() ? behind : std::prev(best);
       const bool ahead = behind != seen_.end() && behind->first - best->first < best->first - before->first;
       const auto& other = ahead ? behind : before;
       const double slope = (other->second.v - best->second.v) / (other->first - best->first);
-      const double t = best->first - best->second.v / slope;
-      half_width = std::max(tolerance(), std::abs(best->second.v / slope));
-      if (!(t > 0.0 && t < 1.0)) break;
+      const double t = best->first - best->second.v / slope, v = best->second.v;
+      if (!(t > 0.0 && t < 1.0)) return std::nullopt;
       const auto next = look(t);
-      if (!next) break;
-      const bool noisy = std::abs((*next)->second.v) >= much_less * std::abs(best->second.v);
-      if (std::abs((*next)->second.v) < std::abs(best->second.v)) best = best_ = *next;
+      if (!next) return std::nullopt;
+      if (std::abs((*next)->second.v) < std::abs(v)) best = best_ = *next;
       half_width = std::max(tolerance(), std::abs(best->second.v / slope));
-      if (noisy) break;
+      if (std::abs((*next)->second.v) < much_less * std::abs(v)) continue;
+      const auto hidden = hidden_within(best->first, near, half_width);
+      if (!hidden) return std::nullopt;
+      half_width = *hidden;
+      break;
     }
     return best;
+  }
+
+  // How far round-off hides a zero: from there on the value has its signs on both sides, still near zero. Empty where
+  // it jumps.
+  std::optional<double> hidden_within(double t, double near, double distance) {
+    for (; t - distance > 0.0 && t + distance < 1.0; distance *= 2.0) {
+      const auto before = look(t - distance), behind = before ? look(t + distance) : before;
+      if (!behind) break;
+      const double a = (*before)->second.v, b = (*behind)->second.v;
+      if (std::max(std::abs(a), std::abs(b)) > near) break;
+      if (a * at_start_ > 0.0 && b * at_end_ > 0.0) return distance;
+    }
+    return std::nullopt;
   }
 
   TraceTools& tools_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/branch.hpp"
@@ -100,6 +101,26 @@ TEST(EventDetector, SaysHowFarRoundoffHidesItsZero) {
   EXPECT_NEAR(event.state.x[0], 0.37, 2e-3);
   EXPECT_GE(event.lambda_uncertainty, 1e-6);
   EXPECT_LE(event.lambda_uncertainty, 2e-3);
+}
+
+// A value that jumps over zero has no zero. The event is where it jumps, however near zero it is on either side: within
+// what it says, which sixty points make narrow.
+TEST(EventDetector, SaysWhereItsValueJumps) {
+  for (const double before : {1.0, 1e-2, 1e-5})
+    for (const double behind : {1.0, 1e-2, 1e-5})
+      for (const double slope : {-2.0, 0.0, 2.0})
+        for (const double at : {0.15, 0.37, 0.5, 0.93}) {
+          SCOPED_TRACE(testing::Message()
+                       << "from " << before << " to " << -behind << ", slope " << slope << ", at " << at);
+          EventDetector jump = passes(at);
+          jump.value = [=](const PathPoint& point) {
+            const double x = point.state.x[0] - at;
+            return (x < 0.0 ? before : -behind) * std::exp(slope * std::abs(x));
+          };
+          const Event event = only_event(along_line({jump}), EventKind::user);
+          EXPECT_NEAR(event.state.x[0], at, std::max(event.lambda_uncertainty, 1e-12));
+          EXPECT_LE(event.lambda_uncertainty, 1e-6);
+        }
 }
 
 }  // namespace arcwall::event_detector_test
