@@ -76,8 +76,15 @@ struct TraceOptions {
 
 /// Defines a monitor whose turning points are events.
 struct Watch {
+  enum class Kind {
+    motion,         ///< the path metric measures it
+    contact_force,  ///< a sum of multipliers
+    inner_force,    ///< told by strains: a reaction, what a member or a spring carries
+  };
+
   std::shared_ptr<const Observable> quantity{};
   std::string label{};
+  Kind kind = Kind::motion;
 };
 
 /// Stores a branch point on another branch.

@@ -150,7 +150,7 @@ Tracer::Tracer(const System& system, BranchStart start, TraceOptions options, st
   const Metric metric = tools_->metric_on(state_.start.state.active_set, state_.lambda_scale);
   auto& detectors = tools_->detectors;
   detectors.push_back(limit_point_detector(metric));
-  for (const Watch& watch : watched) detectors.push_back(turning_detector(system, metric, watch.quantity, watch.label));
+  for (const Watch& watch : watched) detectors.push_back(turning_detector(system, metric, watch));
   const auto& own = tools_->options.detectors;
   detectors.insert(detectors.end(), own.begin(), own.end());
 }

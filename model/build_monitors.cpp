@@ -335,6 +335,35 @@ void add_reactions_of_movements(const deck::Deck& deck, const Measured& from, st
 
 }  // namespace
 
+Watch::Kind kind_of(const MonitorColumn& column, const deck::Deck& deck) {
+  switch (column.component) {
+    case deck::Component::x:
+    case deck::Component::z:
+    case deck::Component::rotation:
+    case deck::Component::face_above_z:
+    case deck::Component::face_below_z:
+    case deck::Component::gap:
+    case deck::Component::thickness:
+    case deck::Component::thickness2:
+      return Watch::Kind::motion;
+    case deck::Component::force_x:
+    case deck::Component::force_z:
+    case deck::Component::moment: {
+      const deck::Monitor* monitor = deck::find(deck.monitors, column.name);
+      const bool of_wall = monitor != nullptr && monitor->of() == deck::Monitored::wall;
+      return of_wall ? Watch::Kind::contact_force : Watch::Kind::inner_force;
+    }
+    case deck::Component::reaction_x:
+    case deck::Component::reaction_z:
+    case deck::Component::reaction_moment:
+    case deck::Component::axial_force:
+    case deck::Component::max_moment:
+    case deck::Component::greatest_pressure:
+      return Watch::Kind::inner_force;
+  }
+  return Watch::Kind::motion;
+}
+
 std::shared_ptr<const Observable> reaction_of(const Measured& from, Index dof) {
   auto reaction = from.body.reaction(dof);
   if (from.kinked == nullptr) return reaction;

@@ -25,6 +25,9 @@ std::shared_ptr<const Observable> reaction_of(const Measured& from, Index dof);
 /// What a component of a place is read from; null if the place has no such component.
 std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Place& place, deck::Component component);
 
+/// What the rate of a column is measured by.
+Watch::Kind kind_of(const MonitorColumn& column, const deck::Deck& deck);
+
 /// The deck's monitors as columns. Adds a problem for one that has nothing to show.
 std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& from, DeckProblems& problems);
 

@@ -123,8 +123,10 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
     const ContactScales& scales = sliding_ ? sliding_->scales() : contact_->scales();
     options_.mesh_error_of_forces = mesh_error_of_forces(scales);
   }
-  for (const std::string& name : deck_->path.watch)
-    watched_.push_back({.quantity = deck::find(monitors_, name)->quantity, .label = name});
+  for (const std::string& name : deck_->path.watch) {
+    const MonitorColumn& column = *deck::find(monitors_, name);
+    watched_.push_back({.quantity = column.quantity, .label = name, .kind = kind_of(column, *deck_)});
+  }
   explore_.policy = deck_->path.branches;
   explore_.depth = deck_->path.depth;
   for (const MonitorColumn& monitor : monitors_)

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "continuation/trace_options.hpp"
 
 namespace arcwall {
 
@@ -14,21 +17,23 @@ EventDetector limit_point_detector(const Metric& metric) {
           .integral = [scale](const PathPoint& point) { return point.state.lambda / scale; }};
 }
 
-EventDetector turning_detector(const Equations& system, const Metric& metric,
-                               std::shared_ptr<const Observable> quantity, std::string label) {
+// The metric measures how fast a place moves. It has no measure for forces: they are measured by their own value, and
+// by their rate where they begin at zero, as where contact has just closed. Beside that, what is a sum of contact
+// forces is as uncertain as motion is. A force that strains tell is a sum of n parts which are as great as the
+// stiffness, though no equilibrium moves that way: their round-off is all that hides its rate.
+EventDetector turning_detector(const Equations& system, const Metric& metric, const Watch& watch) {
   const double lambda_scale = metric.lambda_scale();
-  // The metric has no measure for forces: what depends on these is measured by itself, and by its rate where it begins
-  // at zero, as where contact has just closed.
-  const auto rate = [&system, lambda_scale, quantity](const PathPoint& point) {
-    const Row row = quantity->gradient(point.state);
-    const Metric here(system.weights(point.state.active_set), lambda_scale);
-    const bool of_forces = ((here.weights().array() == 0.0) && (row.dx.array() != 0.0)).any();
-    const double along = apply(row, point.tangent);
-    const double own = of_forces ? std::max(std::abs(quantity->value(point.state)), std::abs(along)) : 0.0;
-    const double norm = std::hypot(here.dual_norm(row), own);
+  const auto rate = [&system, lambda_scale, quantity = watch.quantity, kind = watch.kind](const PathPoint& at) {
+    const Row row = quantity->gradient(at.state);
+    const Metric here(system.weights(at.state.active_set), lambda_scale);
+    const double along = apply(row, at.tangent), motion = here.dual_norm(row);
+    if (kind == Watch::Kind::motion) return motion > 0.0 ? along / motion : 0.0;
+    const double own = std::max(std::abs(quantity->value(at.state)), std::abs(along));
+    const double roundoff = double(row.dx.size()) * std::numeric_limits<double>::epsilon() / detector_noise;
+    const double norm = std::hypot(own, kind == Watch::Kind::contact_force ? motion : roundoff * motion);
     return norm > 0.0 ? along / norm : 0.0;
   };
-  return {.kind = EventKind::turning_point, .label = std::move(label), .value = rate, .integral = nullptr};
+  return {.kind = EventKind::turning_point, .label = watch.label, .value = rate, .integral = nullptr};
 }
 
 }  // namespace arcwall

@@ -13,6 +13,8 @@
 
 namespace arcwall {
 
+struct Watch;
+
 /// Sign changes that a detector reports.
 enum class Crossing { any, rising, falling };
 
@@ -42,9 +44,9 @@ inline std::optional<Extremum> extremum_at(EventKind kind, int before) {
 /// Returns the detector of limit points: λ′ of the unit tangent, scaled to [−1, 1].
 EventDetector limit_point_detector(const Metric& metric);
 
-/// Returns the detector of turning points: the derivative of the quantity along the unit tangent, scaled to [−1, 1].
-EventDetector turning_detector(const Equations& system, const Metric& metric,
-                               std::shared_ptr<const Observable> quantity, std::string label);
+/// Returns the detector of turning points: the derivative of the watched quantity along the unit tangent, scaled to
+/// [−1, 1].
+EventDetector turning_detector(const Equations& system, const Metric& metric, const Watch& watch);
 
 /// Signs below this are round-off.
 constexpr double detector_noise = 1e-7;
