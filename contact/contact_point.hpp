@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,18 @@ struct ContactPoint {
   }
 };
 
+/// What an obstacle exerts on the body in sum: its force along x and along z [force] and its moment about a point
+/// [force·length], with their derivatives.
+struct WallAction {
+  std::array<double, 3> value{};
+  std::array<Row, 3> gradient{};
+
+  /// No contact yet.
+  explicit WallAction(Index unknowns) {
+    for (Row& row : gradient) row = {.dx = Vector::Zero(unknowns), .dlambda = 0.0};
+  }
+};
+
 /// Tells the contacts of a state. Contact at nodes and contact that slides do so alike.
 class ContactQuery {
  public:
@@ -49,6 +62,10 @@ class ContactQuery {
 
   /// Nodes that are pressed on an obstacle between two closed contacts, where the layout of the active set has such.
   virtual std::vector<ContactPoint> pressed_nodes(const State&) const { return {}; }
+
+  /// The sum of what a wall's contacts contribute to the equations of equilibrium, so that it is in balance with loads
+  /// and reactions: of parts that are pressed on curved walls that is more than the forces along the normals.
+  virtual WallAction wall_action(const State& state, const std::string& wall, const Vec2& about) const = 0;
 };
 
 }  // namespace arcwall

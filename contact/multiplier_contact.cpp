@@ -304,4 +304,42 @@ std::vector<ContactPoint> MultiplierContact::closed_contacts(const State& state)
   return contacts;
 }
 
+// Of one contact t ∇g, at the point that touches.
+WallAction MultiplierContact::wall_action(const State& state, const std::string& wall, const Vec2& about) const {
+  WallAction action(state.x.size());
+  const Index n = inner_.size({});
+  for_each_force(state.active_set, [&](std::size_t j, Index k) {
+    const Candidate& contact = candidates_[j];
+    const double p = state.x[n + k], r = springs_[j].r;
+    const bool of_opposite = contact.opposite() && p < 0.0;
+    if ((of_opposite ? candidate(*contact.opposite()) : contact).label().wall != wall) return;
+    PointKinematics at;
+    contact.point().kinematics(state, at);
+    const QuadraticField g = contact.obstacle().gap(at.position, state.lambda);
+    const Vec2 normal(g.x, g.z), arm = at.position - about;
+    const double t = p - r * g.value;
+    Eigen::Matrix2d bent;
+    bent << g.xx, g.xz, g.xz, g.zz;
+    // The force changes as t ∇g, of which t changes by `of_t`, and the place by `velocity`.
+    const auto add = [&](double of_t, const Vec2& velocity, const Vec2& of_normal, const auto& to) {
+      const Vec2 rate = of_t * normal + t * (bent * velocity + of_normal);
+      to(action.gradient[0]) += rate.x();
+      to(action.gradient[1]) += rate.y();
+      to(action.gradient[2]) += cross(arm, rate) + cross(velocity, t * normal);
+    };
+    action.value[0] += t * normal.x();
+    action.value[1] += t * normal.y();
+    action.value[2] += cross(arm, t * normal);
+    add(1.0, Vec2::Zero(), Vec2::Zero(), [&](Row& row) -> double& { return row.dx[n + k]; });
+    const auto& unknowns = contact.point().unknowns();
+    for (std::size_t i = 0; i < unknowns.size(); ++i) {
+      const Vec2 velocity = at.jacobian.col(static_cast<Index>(i));
+      add(-r * normal.dot(velocity), velocity, Vec2::Zero(), [&](Row& row) -> double& { return row.dx[unknowns[i]]; });
+    }
+    add(-r * (g.rate + normal.dot(at.rate)), at.rate, Vec2(g.x_rate, g.z_rate),
+        [](Row& row) -> double& { return row.dlambda; });
+  });
+  return action;
+}
+
 }  // namespace arcwall

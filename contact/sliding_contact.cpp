@@ -380,6 +380,10 @@ std::vector<ContactPoint> SlidingContact::pressed_nodes(const State& state) cons
   return sliding::pressed_nodes(*setting_, SlidingState(state));
 }
 
+WallAction SlidingContact::wall_action(const State& state, const std::string& wall, const Vec2& about) const {
+  return sliding::wall_action(*setting_, SlidingState(state), wall, about);
+}
+
 std::optional<SlidingContact::Entered> SlidingContact::entered(const State& state, double depth) const {
   const auto deepest = sliding::deepest_unwatched(*setting_, SlidingState(state), -depth / scales().length);
   if (!deepest) return std::nullopt;

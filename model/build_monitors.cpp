@@ -158,11 +158,11 @@ namespace {
 std::shared_ptr<const Observable> wall_force(const deck::Deck& deck, const Measured& from,
                                              const deck::Monitor& monitor) {
   const deck::Wall& wall = *deck::find(deck.walls, monitor.wall);
-  if (from.contacts == nullptr || from.system == nullptr) return std::make_shared<ParameterValue>();
+  if (from.contacts == nullptr) return std::make_shared<ParameterValue>();
   const WallForce::What what = monitor.component == deck::Component::force_x   ? WallForce::What::x
                                : monitor.component == deck::Component::force_z ? WallForce::What::z
                                                                                : WallForce::What::moment;
-  return std::make_shared<WallForce>(*from.contacts, *from.system, wall.name, what, motion_of(wall).about);
+  return std::make_shared<WallForce>(*from.contacts, wall.name, what, motion_of(wall).about);
 }
 
 // --- the gap between a place and a wall -----------------------------------------------------------------------------

@@ -14,9 +14,8 @@ struct Measured {
   const Structure& structure;  ///< of the deck's mesh
   const Body& body;
   const Places& places;
-  const ContactQuery* contacts = nullptr;    ///< of the system's states; null where there are none
-  const UnilateralSystem* system = nullptr;  ///< what is traced
-  const KinkedSprings* kinked = nullptr;     ///< the same where laws have kinks; else null
+  const ContactQuery* contacts = nullptr;  ///< of the system's states; null where there are none
+  const KinkedSprings* kinked = nullptr;   ///< the same where laws have kinks; else null
 };
 
 /// What a support exerts on a degree of freedom of a joint.

@@ -103,7 +103,6 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
                           .body = *body_,
                           .places = described.places,
                           .contacts = contacts(),
-                          .system = &system(),
                           .kinked = kinked_.get()};
   monitors_ = monitor_columns(*deck_, read_off, problems);
   structure_->nodal_terms().for_each_moved_support(

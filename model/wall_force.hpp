@@ -1,34 +1,31 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "contact/contact_point.hpp"
 #include "core/observable.hpp"
-#include "core/unilateral_system.hpp"
 
 namespace arcwall {
 
-/// The resultant of the forces that a wall exerts on the structure, pressed parts included: a component, or the moment
-/// about a point.
-///
-/// Gradients are central differences; in the contact forces it is linear.
+/// What a wall exerts on the structure in sum, pressed parts included: a component of the force, or the moment about a
+/// point.
 class WallForce final : public Observable {
  public:
   enum class What { x, z, moment };
 
-  /// `contacts` and `system`, which are the same object, must outlive this.
-  WallForce(const ContactQuery& contacts, const UnilateralSystem& system, std::string wall, What what,
-            const Vec2& about = Vec2::Zero())
-      : contacts_(contacts), system_(system), wall_(std::move(wall)), what_(what), about_(about) {}
+  /// `contacts` must outlive this.
+  WallForce(const ContactQuery& contacts, std::string wall, What what, const Vec2& about = Vec2::Zero())
+      : contacts_(contacts), wall_(std::move(wall)), what_(what), about_(about) {}
 
-  double value(const State& state) const override;
-  Row gradient(const State& state) const override;
+  double value(const State& state) const override { return action(state).value[component()]; }
+  Row gradient(const State& state) const override { return action(state).gradient[component()]; }
 
  private:
-  double of(const ContactPoint& contact) const;
+  std::size_t component() const { return static_cast<std::size_t>(what_); }
+  WallAction action(const State& state) const { return contacts_.wall_action(state, wall_, about_); }
 
   const ContactQuery& contacts_;
-  const UnilateralSystem& system_;
   std::string wall_;
   What what_;
   Vec2 about_;

@@ -14,16 +14,15 @@ namespace {
 
 using NeutralSpan = SlidingContactLayout::NeutralSpan;
 
-// visit(function of a node, the node's unknowns, index of the multiplier) for all constraints −f = 0 of nodes: gaps,
-// neutral spans' middles, places and directions at pinches, tangency.
+// visit(function of a node, its touch, index of the multiplier) for all constraints −f = 0 of nodes: gaps, neutral
+// spans' middles, places and directions at pinches, tangency.
 template <typename Visit>
 void for_each_constraint(const SlidingSetting& setting, const SlidingState& at, const Visit& visit) {
-  const auto unknowns_of = [&](const Touch& touch) { return at.mesh.node_unknowns(touch.strand, touch.position); };
   const auto visit_gap = [&](const Touch& touch, Index force) {
-    visit([&] { return touch_gap(setting, touch, at).gap; }, unknowns_of(touch), force);
+    visit([&] { return touch_gap(setting, touch, at).gap; }, touch, force);
   };
   const auto visit_tilt = [&](const Touch& touch, Index moment) {
-    visit([&] { return touch_gap(setting, touch, at).tilt; }, unknowns_of(touch), moment);
+    visit([&] { return touch_gap(setting, touch, at).tilt; }, touch, moment);
   };
   const SlidingContactLayout& on = at.layout;
   for (std::size_t j = 0; j < at.contacts(); ++j)
@@ -32,21 +31,28 @@ void for_each_constraint(const SlidingSetting& setting, const SlidingState& at, 
     visit_gap(touch_of_node(setting, on.pressed_nodes()[i]), at.index.pressed_force(i));
   for (std::size_t i = 0; i < on.neutral_spans().size(); ++i) {
     const NeutralSpan& span = on.neutral_spans()[i];
-    visit([&] { return off_halfway(setting, at, span); }, at.mesh.node_unknowns(span.strand, span.middle),
-          at.index.holding_force(i));
+    const Touch middle{.strand = span.strand,
+                       .position = span.middle,
+                       .obstacle = on.points()[span.end_point()].obstacle,
+                       .offset = 0.0};
+    visit([&] { return off_halfway(setting, at, span); }, middle, at.index.holding_force(i));
   }
   for (std::size_t i = 0; i < on.pinched_points().size(); ++i) {
     const std::size_t k = on.pinched_points()[i];
-    const NodeUnknowns unknowns = unknowns_of(touch_of_contact(setting, on, k));
-    if (at.is_closed(k)) visit([&] { return off_pinch(setting, at, k).across; }, unknowns, *at.index.force(k));
-    visit([&] { return off_pinch(setting, at, k).along; }, unknowns, at.index.force_along(i));
+    const Touch touch = touch_of_contact(setting, on, k);
+    if (at.is_closed(k)) visit([&] { return off_pinch(setting, at, k).across; }, touch, *at.index.force(k));
+    visit([&] { return off_pinch(setting, at, k).along; }, touch, at.index.force_along(i));
     if (holds_direction(setting, on, k))
-      visit([&] { return off_pinch(setting, at, k).turned; }, unknowns, at.index.moment(static_cast<Index>(k)));
+      visit([&] { return off_pinch(setting, at, k).turned; }, touch, at.index.moment(static_cast<Index>(k)));
   }
   for (std::size_t i = 0; i < on.pressed_tips().size(); ++i)
     visit_tilt(touch_of_tip(setting, on.pressed_tips()[i]), at.index.tip_moment(i));
   for (std::size_t k = 0; k < on.points().size(); ++k)
     if (!on.is_pinched(k)) visit_tilt(touch_of_contact(setting, on, k), at.index.moment(static_cast<Index>(k)));
+}
+
+NodeUnknowns unknowns_at(const Touch& touch, const SlidingState& at) {
+  return at.mesh.node_unknowns(touch.strand, touch.position);
 }
 
 // visit(index of the multiplier) for the moments at knife edges, which are 0. As a soft spring would have it, −m c = 0,
@@ -140,8 +146,8 @@ void add_constraint(const NodeFunction& constraint, const NodeUnknowns& unknowns
 // The pattern of K: that of the mesh with rows of forces and moments behind it.
 void lay_out(const SlidingSetting& setting, const SlidingState& at, Linearization& out) {
   std::vector<RowEntry> entries;
-  for_each_constraint(setting, at, [&](const auto&, const NodeUnknowns& unknowns, Index row) {
-    for (const Index unknown : unknowns)
+  for_each_constraint(setting, at, [&](const auto&, const Touch& touch, Index row) {
+    for (const Index unknown : unknowns_at(touch, at))
       if (unknown >= 0) entries.push_back({.row = row - at.index.nodes, .column = unknown});
   });
   out.holding.clear();
@@ -166,12 +172,64 @@ void take_over(const Linearization& mesh, const SlidingState& at, Linearization&
   copy_values(mesh.K, out.K);
 }
 
+// A force f and a couple at a node, as the gradient of a constraint by the node has them, and their moment about a
+// point:
+//
+//     (f_x, f_z, arm × f + couple).
+Eigen::Vector3d with_moment(const Vec2& arm, const Eigen::Vector3d& at_node) {
+  return {at_node[0], at_node[1], cross(arm, at_node.head<2>()) + at_node[2]};
+}
+
+// What the multiplier of a constraint does to its node, μ ∂f/∂(x, z, θ).
+void add_to_action(const NodeFunction& constraint, const Touch& touch, Index multiplier, const SlidingState& at,
+                   const Vec2& about, WallAction& action) {
+  const double force = at.state.x[multiplier];
+  const Vec2 arm = touch.axis(at).position - about;
+  const Eigen::Vector3d exerted = force * constraint.gradient;
+  const auto add = [&](const Eigen::Vector3d& rate, const Vec2& velocity, auto&& to) {
+    const Eigen::Vector3d moved = with_moment(arm, rate);
+    for (std::size_t i = 0; i < 3; ++i) to(action.gradient[i]) += moved[static_cast<Index>(i)];
+    to(action.gradient[2]) += cross(velocity, exerted.head<2>());
+  };
+  for (std::size_t i = 0; i < 3; ++i) action.value[i] += with_moment(arm, exerted)[static_cast<Index>(i)];
+  add(constraint.gradient, Vec2::Zero(), [&](Row& row) -> double& { return row.dx[multiplier]; });
+  const NodeUnknowns unknowns = unknowns_at(touch, at);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 velocity(i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0);
+    if (unknowns[i] >= 0)
+      add(force * constraint.hessian.col(static_cast<Index>(i)), velocity,
+          [&](Row& row) -> double& { return row.dx[unknowns[i]]; });
+  }
+  add(force * constraint.gradient_rate, at.mesh.node_rate(touch.strand, touch.position).head<2>(),
+      [](Row& row) -> double& { return row.dlambda; });
+}
+
+// Of the two obstacles of a pinch the one that presses.
+std::size_t obstacle_that_acts(const SlidingSetting& setting, const SlidingState& at, const Touch& touch) {
+  for (const std::size_t k : at.layout.pinched_points()) {
+    const auto [strand, position] = at.mesh.breakpoint(static_cast<Index>(k));
+    if (strand != touch.strand || position != touch.position) continue;
+    return obstacles_at(setting, at.layout, k)[pinching_force(setting, at, k).value < 0.0 ? 1 : 0];
+  }
+  return touch.obstacle;
+}
+
 }  // namespace
+
+WallAction wall_action(const SlidingSetting& setting, const SlidingState& at, const std::string& wall,
+                       const Vec2& about) {
+  WallAction action(at.state.x.size());
+  for_each_constraint(setting, at, [&](const auto& function, const Touch& touch, Index multiplier) {
+    if (setting.obstacles[obstacle_that_acts(setting, at, touch)].name == wall)
+      add_to_action(function(), touch, multiplier, at, about, action);
+  });
+  return action;
+}
 
 void residual(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F) {
   at.mesh.residual(at.now, F.head(at.index.nodes));
-  for_each_constraint(setting, at, [&](const auto& function, const NodeUnknowns& unknowns, Index multiplier) {
-    add_to_residual(function(), unknowns, multiplier, at, F);
+  for_each_constraint(setting, at, [&](const auto& function, const Touch& touch, Index multiplier) {
+    add_to_residual(function(), unknowns_at(touch, at), multiplier, at, F);
   });
   for_each_free_direction(setting, at, [&](Index m) { F[m] = -at.state.x[m] * compliance(setting); });
   for (Index k = 0; k < at.index.points; ++k) F[at.index.coordinate(k)] = border_equation(setting, at, k).value;
@@ -187,8 +245,9 @@ void linearize(const SlidingSetting& setting, const SlidingState& at, Linearizat
 
   take_over(mesh, at, out);
   out.border_rates = border_rates(setting, at);
-  for_each_constraint(setting, at, [&](const auto& function, const NodeUnknowns& unknowns, Index multiplier) {
+  for_each_constraint(setting, at, [&](const auto& function, const Touch& touch, Index multiplier) {
     const NodeFunction constraint = function();
+    const NodeUnknowns unknowns = unknowns_at(touch, at);
     add_to_residual(constraint, unknowns, multiplier, at, out.F);
     add_constraint(constraint, unknowns, multiplier, at, out);
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "contact/contact_point.hpp"
 #include "contact/sliding/setting.hpp"
 #include "contact/sliding/unknowns.hpp"
 #include "core/linearization.hpp"
@@ -9,6 +10,10 @@
 namespace arcwall::sliding {
 
 void residual(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F);
+
+/// See ContactQuery.
+WallAction wall_action(const SlidingSetting& setting, const SlidingState& at, const std::string& wall,
+                       const Vec2& about);
 
 /// See Equations::linearize.
 void linearize(const SlidingSetting& setting, const SlidingState& at, Linearization& out);
