@@ -96,7 +96,9 @@ Touch node_touch(const NodeContacts& all, Index j) {
   point.offset = offset_of(model, wall, j, point, half, rest);
   Touch touch{.label = label, .gap = node_unknowns(structure, section, state)};
   touch.gap.of = [point, half, &wall](const Vector& u) { return wall.gap_to(point.at(u), half); };
-  if (wall.has_outline()) touch.gap.by_place = [point, &wall](const Vector& u) { return wall.normal(point.at(u)); };
+  if (wall.has_outline())
+    take_outline(
+        wall, [point](const Vector& u) { return point.at(u); }, touch.gap);
   touch.place = wall.touched_by(point.at(touch.gap.at), half);
   touch.gap.resolve(wall.from_vertical(point.at(touch.gap.at)));
   const deck::Contact& contact = model.deck().contact;

@@ -161,6 +161,12 @@ Vec2 PlainWall::normal(const Vec2& point) const {
   return faces(point) ? Vec2(perp(unit_tangent(slope_angle(point)))) : Vec2(Vec2::Zero());
 }
 
+// 1/(1/κ − d), so that a sharp corner, of which κ is infinite, turns by −1/d.
+double PlainWall::turn(const Vec2& point) const {
+  const double bend = faces(point) ? curvature(point) : 0.0;
+  return bend == 0.0 ? 0.0 : 1.0 / (1.0 / bend - gap(point));
+}
+
 Vec2 PlainWall::touched_by(const Vec2& point, double half_height) const {
   const double off = kept_off(half_height);
   return off > 0.0 && faces(point) ? Vec2(point - off * perp(unit_tangent(slope_angle(point)))) : point;

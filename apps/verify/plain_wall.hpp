@@ -64,6 +64,10 @@ class PlainWall {
   /// The slope of that by the point's place: the unit vector out of the wall; 0 where there is no surface.
   Vec2 normal(const Vec2& point) const;
 
+  /// By how much the surface's angle changes for each length by which a point goes along it: κ/(1 − κ d) at the
+  /// distance d, 0 where there is no surface [1/length].
+  double turn(const Vec2& point) const;
+
   /// Where a member touches that has its face, or its axis, at a point.
   Vec2 touched_by(const Vec2& point, double half_height) const;
 

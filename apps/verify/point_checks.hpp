@@ -47,26 +47,4 @@ struct Energy {
 };
 Energy energy(const PointAtHand& at);
 
-/// Which eigenvalues of a stiffness whose diagonal is one are as good as zero. Where a degree of freedom may itself be
-/// critical its diagonal cannot be made one: an entry that is less than a part of what its elements contribute is
-/// compared with that part.
-struct ZeroEigenvalue {
-  double least = 0.0;     ///< those up to it
-  double of_next = 0.0;   ///< and those up to this part of the second smallest
-  double of_parts = 0.0;  ///< the part; 0 where no degree of freedom is critical by itself
-};
-
-/// How many negative eigenvalues the second variation may have: some are as good as zero, some contacts carry nothing.
-struct CountRange {
-  Index least = 0, most = 0;
-};
-CountRange unstable_range(const PointAtHand& at, const ZeroEigenvalue& zero);
-
-/// The same where the forces of the supports that λ moves are dead loads, and λ one more unknown. Empty where λ drives
-/// anything else, where the mesh slides, and where a held node is in contact.
-std::optional<CountRange> unstable_load_control_range(const PointAtHand& at, const ZeroEigenvalue& zero);
-
-/// Whether supports are all that λ drives, on a mesh that does not slide.
-bool is_driven_by_supports_alone(const Model& model);
-
 }  // namespace arcwall::verify

@@ -338,24 +338,23 @@ Potential spring_potential(const Model& model, const State& state, double k, con
     potential.at[i] = body != nullptr ? body->value(sliding_mesh(state), mesh_state_of(state), dof)
                                       : model.structure().value(state, dof);
   }
-  const auto stretch = [n](const Vector& u) { return n == 1 ? u[0] : u[1] - u[0]; };
+  const Vector by = n == 1 ? Vector::Ones(1) : Vector(Vec2(-1.0, 1.0));  // of the stretch
+  const auto stretch = [by](const Vector& u) { return by.dot(u); };
   if (law != nullptr && law->interpolation == SpringLaw::Interpolation::linear) {
     const StraightPiece piece = straight_piece(*law, stretch(potential.at), state, first_kink);
     potential.energy = [=](const Vector& u) { return piece.energy_at(stretch(u)); };
-    potential.gradient = [=](const Vector& u) {
-      Vector gradient = Vector::Constant(n, piece.force_at(stretch(u)));
-      if (n == 2) gradient[0] = -gradient[0];
-      return gradient;
-    };
+    potential.gradient = [=](const Vector& u) { return Vector(piece.force_at(stretch(u)) * by); };
+    potential.curvature = [=](const Vector&) { return Matrix(piece.slope * by * by.transpose()); };
     return potential;
   }
   potential.energy = [=](const Vector& u) {
     return law != nullptr ? table_energy(*law, stretch(u)) : 0.5 * k * stretch(u) * stretch(u);
   };
   potential.gradient = [=](const Vector& u) {
-    Vector gradient = Vector::Constant(n, law != nullptr ? table_force(*law, stretch(u)) : k * stretch(u));
-    if (n == 2) gradient[0] = -gradient[0];
-    return gradient;
+    return Vector((law != nullptr ? table_force(*law, stretch(u)) : k * stretch(u)) * by);
+  };
+  potential.curvature = [=](const Vector& u) {
+    return Matrix((law != nullptr ? table_slope(*law, stretch(u)) : k) * by * by.transpose());
   };
   return potential;
 }
@@ -415,7 +414,12 @@ void add_pressed_ends(const Model& model, const State& state, std::vector<Potent
       return 0.5 * p * (by_x * (rest.y() + u[1]) * u[0] + by_z * (rest.x() + u[0]) * u[1]);
     };
     potential.gradient = [=](const Vector& u) {
-      return Vector(0.5 * p * Vec2(by_x * (rest.y() + u[1]), by_z * (rest.x() + u[0])));
+      return Vector(0.5 * p * Vec2(by_x * (rest.y() + u[1]) + by_z * u[1], by_z * (rest.x() + u[0]) + by_x * u[0]));
+    };
+    potential.curvature = [=](const Vector&) {
+      Matrix K = Matrix::Zero(2, 2);
+      K(0, 1) = K(1, 0) = 0.5 * p * (by_x + by_z);
+      return K;
     };
     to.push_back(std::move(potential));
   }
@@ -423,17 +427,20 @@ void add_pressed_ends(const Model& model, const State& state, std::vector<Potent
 
 }  // namespace
 
-// The force of a law by a stretch: between two points of the table a straight line, or Hermite's cubic, with the slopes
-// of Fritsch and Butland, 0 at the ends.
-double table_force(const deck::TableLaw& law, double stretch) {
+namespace {
+
+// The force of a law by a stretch and its slope: between two points of the table a straight line, or Hermite's cubic,
+// with the slopes of Fritsch and Butland, 0 at the ends.
+std::pair<double, double> table_force_and_slope(const deck::TableLaw& law, double stretch) {
   const auto& u = law.displacement;
   const auto& force = law.force;
-  if (stretch <= u.front()) return force.front();
-  if (stretch >= u.back()) return force.back();
+  if (stretch <= u.front()) return {force.front(), 0.0};
+  if (stretch >= u.back()) return {force.back(), 0.0};
   std::size_t i = 0;
   while (u[i + 1] < stretch) ++i;
   if (law.interpolation == SpringLaw::Interpolation::linear)
-    return (force[i] * (u[i + 1] - stretch) + force[i + 1] * (stretch - u[i])) / (u[i + 1] - u[i]);
+    return {(force[i] * (u[i + 1] - stretch) + force[i + 1] * (stretch - u[i])) / (u[i + 1] - u[i]),
+            slope_before(law, i + 1)};
   const auto slope = [&](std::size_t at) {
     if (at == 0 || at + 1 == u.size()) return 0.0;
     const double h0 = u[at] - u[at - 1], h1 = u[at + 1] - u[at];
@@ -443,8 +450,15 @@ double table_force(const deck::TableLaw& law, double stretch) {
   };
   const double h = u[i + 1] - u[i], t = (stretch - u[i]) / h;
   const double c = h * slope(i), d = force[i + 1] - force[i], e = h * slope(i + 1);
-  return force[i] + t * (c + t * (3.0 * d - 2.0 * c - e + t * (c + e - 2.0 * d)));
+  const double second = 3.0 * d - 2.0 * c - e, third = c + e - 2.0 * d;
+  return {force[i] + t * (c + t * (second + t * third)), (c + t * (2.0 * second + 3.0 * t * third)) / h};
 }
+
+}  // namespace
+
+double table_force(const deck::TableLaw& law, double stretch) { return table_force_and_slope(law, stretch).first; }
+
+double table_slope(const deck::TableLaw& law, double stretch) { return table_force_and_slope(law, stretch).second; }
 
 std::vector<Potential> potentials(const Model& model, const State& state) {
   std::vector<Potential> all =
@@ -532,6 +546,7 @@ std::string name_of_unknown(const Model& model, const State& state, Index unknow
 }
 
 Vector forces(const Potential& potential) {
+  if (potential.curvature) return potential.gradient(potential.at);
   Vector f = Vector::Zero(potential.at.size());
   for (Index i = 0; i < f.size(); ++i)
     if (potential.unknowns[static_cast<std::size_t>(i)] >= 0)
@@ -546,6 +561,7 @@ Vector forces(const Potential& potential) {
 }
 
 Matrix stiffness(const Potential& potential) {
+  if (potential.curvature) return potential.curvature(potential.at);
   const Index n = potential.at.size();
   Matrix K = Matrix::Zero(n, n);
   for (Index i = 0; i < n; ++i)

@@ -17,6 +17,8 @@ struct Potential {
   Vector rates{};                                   ///< by λ, of those that supports move; empty: none moves
   std::function<double(const Vector&)> energy{};    ///< [force·length]
   std::function<Vector(const Vector&)> gradient{};  ///< as the element has it
+  /// Of what is no element, whose gradient is in closed form, too: laws have kinks, over which differences are wrong.
+  std::function<Matrix(const Vector&)> curvature{};
 };
 
 /// All of them, whether the mesh slides or not.
@@ -28,6 +30,9 @@ std::optional<double> spring_force(const Model& model, const State& state, const
 
 /// The force of a law at a stretch, by formulas of its own.
 double table_force(const deck::TableLaw& law, double stretch);
+
+/// Its slope there.
+double table_slope(const deck::TableLaw& law, double stretch);
 
 /// Point loads on the unknowns.
 Vector point_loads(const Model& model, const State& state);
@@ -41,10 +46,10 @@ Index structure_unknowns(const Model& model, const State& state);
 /// What an unknown of the structure is: `z at column:0.5`.
 std::string name_of_unknown(const Model& model, const State& state, Index unknown);
 
-/// ∂U/∂u of a potential by differences of its energy alone.
+/// ∂U/∂u of a potential: of an element by differences of its energy alone.
 Vector forces(const Potential& potential);
 
-/// ∂²U/∂u² by differences of its gradient.
+/// ∂²U/∂u²: of an element by differences of its gradient.
 Matrix stiffness(const Potential& potential);
 
 /// How its gradient changes with λ while supports alone move, by differences too; empty where none does.

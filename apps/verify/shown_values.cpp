@@ -115,7 +115,8 @@ std::optional<double> own_value(const PointAtHand& at, const deck::Monitor& moni
   return spring_force(at.model, at.point.state, spring, direction_of(monitor.component));
 }
 
-void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double shown, Findings& findings) {
+void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double shown, double roundoff,
+                    Findings& findings) {
   constexpr double same = 1e-9;  // of the value: that of the place that is shown, where several have nearly as much
   const Model& model = at.model;
   const bool moment = monitor.component == deck::Component::max_moment;
@@ -125,8 +126,8 @@ void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double 
   double most = 0.0;
   for (const ShapePoint& point : model.body().shape(member, at.point.state))
     most = std::max(most, moment ? std::abs(point.moment) : pressure_of(*foundation, point.displacement));
-  findings.compare("nothing is greater than the greatest along a member", most - shown, same * std::abs(shown),
-                   "monitor " + monitor.name);
+  findings.compare("nothing is greater than the greatest along a member", most - shown,
+                   same * std::abs(shown) + roundoff, "monitor " + monitor.name);
 }
 
 }  // namespace arcwall::verify

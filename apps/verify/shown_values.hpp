@@ -11,6 +11,7 @@ namespace arcwall::verify {
 std::optional<double> own_value(const PointAtHand& at, const deck::Monitor& monitor);
 
 /// No section that a picture of the point shows carries more than the greatest moment or pressure along its member.
-void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double shown, Findings& findings);
+void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double shown, double roundoff,
+                    Findings& findings);
 
 }  // namespace arcwall::verify

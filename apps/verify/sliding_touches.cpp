@@ -35,7 +35,7 @@ Touch sliding_touch(const std::shared_ptr<const Sliding>& at, const PlainWall& w
   touch.place = wall.touched_by(face(touch.gap.at), half);
   touch.gap.resolve(wall.from_vertical(face(touch.gap.at)));
   touch.gap.of = [face, half, &wall](const Vector& u) { return wall.gap_to(face(u), half); };
-  if (wall.has_outline()) touch.gap.by_place = [face, &wall](const Vector& u) { return wall.normal(face(u)); };
+  if (wall.has_outline()) take_outline(wall, face, touch.gap);
   return touch;
 }
 
@@ -94,6 +94,12 @@ Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wal
     const AxisPlace place = at->place(node, function, u);
     return std::remainder(place.angle - wall.slope_angle(face_towards(wall, half, place)), pi);
   };
+  if (wall.has_outline() && std::isfinite(wall.curvature(at->place(node, tangency.tilt, tangency.tilt.at).position)))
+    tangency.tilt.slopes = [=, &wall, function = tangency.tilt](const Vector& u) {
+      const Vec2 place = at->place(node, function, u).position;
+      const Vec2 turn = wall.turn(place) * unit_tangent(wall.slope_angle(place));
+      return Vector(Eigen::Vector3d(-turn.x(), -turn.y(), 1.0));
+    };
   if (!point || at->on.lies_pressed(*point)) tangency.end_of_pressed = true;
   if (!point || at->on.lies_beside(*point)) return tangency;
   if (at->on.points()[*point].is_pinched()) {  // its place is held besides, so that a couple alone holds its direction
@@ -101,6 +107,7 @@ Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wal
     tangency.tilt.of = [=, function = tangency.tilt](const Vector& u) {
       return std::remainder(at->place(node, function, u).angle - angle, pi);
     };
+    tangency.tilt.slopes = [](const Vector&) { return Vector(Eigen::Vector3d::UnitZ()); };
     tangency.end_of_pressed = true;
     return tangency;
   }
@@ -140,8 +147,9 @@ void press_across(const SlidingContact::PinchedPlace& pinch, double angle, Touch
                   Pinched& pinched) {
   const Vec2 axis = unit_tangent(angle), across = perp(axis);
   const Vec2 normal = across.dot(pinch.normal) >= 0.0 ? across : Vec2(-across);
-  first.gap.by_place = [normal](const Vector&) { return normal; };
-  other.gap.by_place = [normal](const Vector&) -> Vec2 { return -normal; };
+  first.gap.slopes = [normal](const Vector&) { return Vector(Eigen::Vector3d(normal.x(), normal.y(), 0.0)); };
+  other.gap.slopes = [normal](const Vector&) { return Vector(Eigen::Vector3d(-normal.x(), -normal.y(), 0.0)); };
+  first.gap.bends = other.gap.bends = {};
   const Vec2 force = first.force * pinch.normal + pinched.force * pinch.axis;
   first.force = force.dot(normal);
   pinched.force = force.dot(axis);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/verify/completeness.hpp"
+#include "apps/verify/counts.hpp"
 #include "apps/verify/point_checks.hpp"
 #include "apps/verify/verify.hpp"
 

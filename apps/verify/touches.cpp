@@ -1,8 +1,11 @@
 #include "apps/verify/touches.hpp"
 
+#include <cmath>
+
 #include "apps/verify/differences.hpp"
 #include "apps/verify/node_touches.hpp"
 #include "apps/verify/sliding_touches.hpp"
+#include "core/unit_tangent.hpp"
 
 namespace arcwall::verify {
 
@@ -12,13 +15,10 @@ void NodeFunction::resolve(double length) {
 }
 
 Vector NodeFunction::gradient() const {
-  Vector gradient = Vector::Zero(at.size());
-  if (by_place) {
-    const Vec2 slope = by_place(at);
-    for (Index i = 0; i < 2; ++i)
-      if (unknowns[static_cast<std::size_t>(i)] >= 0) gradient[i] = slope[i];
-    return gradient;
-  }
+  Vector gradient = slopes ? slopes(at) : Vector(Vector::Zero(at.size()));
+  for (Index i = 0; slopes && i < at.size(); ++i)
+    if (unknowns[static_cast<std::size_t>(i)] < 0) gradient[i] = 0.0;
+  if (slopes) return gradient;
   for (Index i = 0; i < at.size(); ++i)
     if (unknowns[static_cast<std::size_t>(i)] >= 0)
       gradient[i] = derivative([&](double step) { return of(at + step * Vector::Unit(at.size(), i)); }, steps[i]);
@@ -27,6 +27,7 @@ Vector NodeFunction::gradient() const {
 
 Matrix NodeFunction::hessian() const {
   const Index n = at.size();
+  if (bends) return bends(at);
   Matrix hessian = Matrix::Zero(n, n);
   const auto varied = [&](Index i, double by) {
     NodeFunction moved = *this;
@@ -37,6 +38,24 @@ Matrix NodeFunction::hessian() const {
     if (unknowns[static_cast<std::size_t>(i)] >= 0)
       hessian.col(i) = derivative([&](double step) { return varied(i, step); }, steps[i]);
   return 0.5 * (hessian + hessian.transpose());
+}
+
+// ∂g = n, ∂²g = −κ/(1 − κ d) t tᵀ: by differences alone where the curvature is infinite, at a sharp corner.
+void take_outline(const PlainWall& wall, const std::function<Vec2(const Vector&)>& place, NodeFunction& gap) {
+  gap.slopes = [=, &wall](const Vector& u) {
+    Vector slopes = Vector::Zero(u.size());
+    slopes.head<2>() = wall.normal(place(u));
+    return slopes;
+  };
+  if (!std::isfinite(wall.curvature(place(gap.at)))) return;
+  gap.bends = [=, &wall, unknowns = gap.unknowns](const Vector& u) {
+    const Vec2 along = unit_tangent(wall.slope_angle(place(u)));
+    Matrix bends = Matrix::Zero(u.size(), u.size());
+    bends.topLeftCorner<2, 2>() = -wall.turn(place(u)) * along * along.transpose();
+    for (Index i = 0; i < 2; ++i)
+      if (unknowns[static_cast<std::size_t>(i)] < 0) bends.row(i).setZero(), bends.col(i).setZero();
+    return bends;
+  };
 }
 
 Touches touches(const Model& model, const std::vector<PlainWall>& walls, const State& state) {

@@ -20,9 +20,10 @@ struct NodeFunction {
   Vector steps{};                 ///< with which differences are taken
   std::function<double(const Vector&)> of{};
 
-  /// Its slope by x and z where it depends on nothing else; empty: that is found by differences, which are not right
-  /// where a slope has a kink.
-  std::function<Vec2(const Vector&)> by_place{};
+  /// Its derivatives, in closed form; empty: they are found by differences, which are not right where a slope has a
+  /// kink, nor second ones where a curvature jumps.
+  std::function<Vector(const Vector&)> slopes{};
+  std::function<Matrix(const Vector&)> bends{};
 
   /// Takes differences by x and z within a part of a length over which the function bends.
   void resolve(double length);
@@ -31,6 +32,9 @@ struct NodeFunction {
   Vector gradient() const;  ///< 0 for what is held
   Matrix hessian() const;
 };
+
+/// Gives a gap to a wall with an outline its derivatives by x and z. `place`: of the axis, which the unknowns move.
+void take_outline(const PlainWall& wall, const std::function<Vec2(const Vector&)>& place, NodeFunction& gap);
 
 /// A point of the structure against a wall.
 struct Touch {
@@ -45,6 +49,9 @@ struct Touch {
   bool two_sided = false;   ///< another touches the same point from the opposite side
   double against = 0.0;     ///< the force of that other [force]
 };
+
+/// What the wall exerts: p, less the spring of the augmented Lagrangian.
+inline double wall_force(const Touch& touch) { return touch.force - touch.stiffness * touch.gap.value(); }
 
 /// A point of a mesh that slides, where the structure is tangent to the wall.
 struct Tangency {

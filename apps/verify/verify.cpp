@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "apps/output/text_table.hpp"
+#include "apps/verify/counts.hpp"
 #include "apps/verify/point_checks.hpp"
+#include "apps/verify/rates.hpp"
 #include "apps/verify/shown_values.hpp"
 #include "apps/verify/stored_files.hpp"
 
@@ -19,28 +21,17 @@ Scales scales_of(const Model& model) {
           .force = model.contact() != nullptr ? model.contact()->scales().force : model.structure().force_scale()};
 }
 
-// Dense eigenvalues cost the cube of the unknowns: of long runs every so many points are counted, besides those with
-// events.
-struct CountPlan {
-  Index every = 1;
-  bool none = false;
-
-  CountPlan(Index unknowns, std::size_t points) {
-    constexpr double most_work = 2e10;
-    constexpr Index most_unknowns = 2000;
-    none = unknowns > most_unknowns;
-    const double cube = double(unknowns) * double(unknowns) * double(unknowns);
-    every = std::max(Index{1}, static_cast<Index>(std::ceil(double(points) * cube / most_work)));
-  }
-
-  bool counts(const RecordPoint& point, std::size_t number) const {
-    return !none && (point.event.has_value() || static_cast<Index>(number) % every == 0);
-  }
-};
-
 bool is_reaction(deck::Component component) {
   return component == deck::Component::reaction_x || component == deck::Component::reaction_z ||
          component == deck::Component::reaction_moment;
+}
+
+// Of forces, moments or pressures of nodes.
+double roundoff_of_force(deck::Component component, const Structure& structure) {
+  const double force = 10.0 * structure.force_roundoff();
+  if (component == deck::Component::max_moment) return force * structure.length_scale();
+  if (component == deck::Component::greatest_pressure) return force / structure.length_scale();
+  return force;
 }
 
 bool is_greatest(deck::Component component) {
@@ -50,11 +41,12 @@ bool is_greatest(deck::Component component) {
 // Monitors are differences of places, or sums of nodal forces: their round-off is that of these. Reactions of a run in
 // increments are of stresses that no state tells.
 double roundoff_of(const MonitorColumn& column, const Structure& structure) {
-  if (is_reaction(column.component)) return 10.0 * structure.force_roundoff();
   // Where a quantity turns, its place is as sure as the root of its round-off; formulas of walls differ in the order of
   // their operations.
   constexpr double turn = 1e-7;
   if (column.is_place) return turn;
+  if (is_reaction(column.component) || is_greatest(column.component))
+    return roundoff_of_force(column.component, structure);
   constexpr double place = 1e-14, gap = 1e-12;
   return (column.component == deck::Component::gap ? gap : place) * structure.length_scale();
 }
@@ -71,7 +63,8 @@ void add_monitors(const PointAtHand& at, PathExpectation& expected, Findings& fi
     double value = column.quantity->value(at.point.state);
     if (const deck::Monitor* monitor = deck::find(model.deck().monitors, column.name)) {
       if (const auto own = own_value(at, *monitor)) value = monitor->sign * *own;
-      if (is_greatest(column.component)) check_greatest(at, *monitor, std::abs(value), findings);
+      if (is_greatest(column.component))
+        check_greatest(at, *monitor, std::abs(value), roundoff_of_force(column.component, model.structure()), findings);
     }
     expected.monitors.push_back(value);
     expected.allowed.push_back(std::isfinite(value) ? 1e-12 * std::abs(value) + roundoff_of(column, model.structure())
@@ -105,17 +98,18 @@ Index listed_contacts(const Touches& touches) {
                        [](const Touch& touch) { return touch.closed && touch.listed; });
 }
 
-std::vector<std::string> left_out(const Model& model, const CountPlan& plan, Index unknowns, bool moves_supports) {
+// `uncounted`: points whose unstable directions were not counted.
+std::vector<std::string> left_out(const Model& model, Index uncounted, bool moves_supports) {
   std::vector<std::string> sentences;
   if (model.in_increments())
     sentences.emplace_back(
         "equilibrium, gaps, contact forces, energies, reactions and unstable directions: load increments leave a "
         "residue, and their stresses are those of the increments before");
-  else if (plan.none)
-    sentences.push_back(fmt::format("unstable directions: {} unknowns are too many for dense eigenvalues", unknowns));
-  else if (plan.every > 1)
-    sentences.push_back(fmt::format(
-        "unstable directions between events at all but every {}th point: dense eigenvalues are slow", plan.every));
+  else if (uncounted > 0)
+    sentences.push_back(
+        fmt::format("unstable directions at {} points: more than {} unknowns are too many for dense eigenvalues, which "
+                    "are needed beside singular points",
+                    uncounted, most_of_dense));
   if (model.contact() != nullptr && model.sliding() == nullptr)
     sentences.emplace_back("whether members enter walls between nodes: contact at nodes knows of nodes alone");
   if (model.sliding() != nullptr)
@@ -147,20 +141,18 @@ class Verifier {
   }
 
   Verdict run(const StoredFiles& files) {
-    const Index unknowns = model_.structure().size({});
-    const CountPlan plan(unknowns, record_.points.size());
     Findings& findings = verdict_.findings;
     findings.at("path.csv", 0, 0);
     findings.require("path.csv has a row a point", path_rows_.size() == record_.points.size(),
                      fmt::format("{} rows, {} points", path_rows_.size(), record_.points.size()));
     for (std::size_t i = 0; i < record_.points.size(); ++i)
-      if (!check_point(i, plan.counts(record_.points[i], i))) return verdict_;  // nothing else can be told
+      if (!check_point(i)) return verdict_;  // nothing else can be told
     findings.at("contacts.csv", 0, 0);
     findings.require("contacts.csv has a row a contact", next_contact_ == contact_rows_.size(),
                      fmt::format("{} rows, {} closed contacts", contact_rows_.size(), next_contact_));
     const std::vector<ListedEvent> events = check_events(files.events_json, record_, model_, walls_, findings);
     if (!model_.in_increments()) check_completeness(events, record_, model_, findings);
-    verdict_.not_checked = left_out(model_, plan, unknowns, record_.moves_supports);
+    verdict_.not_checked = left_out(model_, uncounted_, record_.moves_supports);
     return verdict_;
   }
 
@@ -178,7 +170,7 @@ class Verifier {
     return change_before(record_.points, number, makes_stretch) != number;
   }
 
-  bool check_point(std::size_t number, bool count) {
+  bool check_point(std::size_t number) {
     const RecordPoint& point = record_.points[number];
     Findings& findings = verdict_.findings;
     findings.at(states_file_, point.branch, point.step);
@@ -195,12 +187,12 @@ class Verifier {
       check_contacts(at, findings, waits_for_stretch(number));
       check_equilibrium(at, findings);
       expected.energy = energy(at);
-      if (count) {
-        const ZeroEigenvalue zero = zero_eigenvalue(model, record_, point);
-        expected.unstable = unstable_range(at, zero);
-        if (record_.moves_supports && point.unstable_load_control)
-          expected.unstable_load_control = unstable_load_control_range(at, zero);
-      }
+      const ZeroEigenvalue zero = zero_eigenvalue(model, record_, point);
+      expected.unstable = unstable_range(at, zero);
+      if (!expected.unstable) ++uncounted_;
+      if (record_.moves_supports && point.unstable_load_control)
+        expected.unstable_load_control = unstable_load_control_range(at, zero);
+      check_rates(model.watched(), record_.points, number, findings);
     }
     if (number < path_rows_.size()) {
       findings.at("path.csv", point.branch, point.step);
@@ -218,6 +210,7 @@ class Verifier {
   WallsOfStages walls_;
   std::vector<std::vector<std::string>> path_rows_, contact_rows_;
   std::size_t next_contact_ = 0;
+  Index uncounted_ = 0;
   Verdict verdict_;
 };
 
