@@ -33,11 +33,10 @@ struct Penetration {
 };
 
 std::string how_to_part(const deck::Wall& wall, const Penetration& found) {
-  const std::string apart = "move the wall or the member apart";
+  const std::string apart = "move the wall, or give it an interference";
   if (!found.everywhere) return apart;
   if (wall.outline)
-    return "the body is to the left of an outline's direction, or where `normal` or `structure` says: is the other "
-           "side "
+    return "the structure lies to the left of an outline, or on the side of `normal` or `structure`: is the other side "
            "meant? Else " +
            apart;
   const bool above = wall.side == Side::above;
@@ -328,6 +327,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
   std::vector<TouchAtRest> touches;
   const double round_off = 1e-12 * structure.length_scale();
   const State rest{.x = Vector::Zero(structure.size({}))};
+  const std::string length = deck.units.length.empty() ? "" : " " + deck.units.length;
   for (const deck::Wall& wall : deck.walls) {
     std::unordered_multimap<Index, std::pair<Vec2, double>> taken;  // of a node: members that meet share its point
     Penetration deepest;
@@ -376,12 +376,12 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
         }
     }
     if (deepest.depth > wall.interference + round_off)
-      problems.add(wall.position, "wall." + wall.name,
-                   fmt::format("member \"{}\" is inside the wall at the start: node {}:{:.4g} by {:.9g}{}",
-                               deepest.label.member, deepest.label.member, deepest.label.fraction, deepest.depth,
-                               wall.interference > 0.0 ? ", more than its interference" : ""),
-                   wall.interference > 0.0 ? "give it a greater interference, or move the wall or the member apart"
-                                           : how_to_part(wall, deepest));
+      problems.add(
+          wall.position, "wall." + wall.name,
+          fmt::format("member \"{}\" is inside the wall at the start: node {}:{:.4g} by {:.9g}{}{}",
+                      deepest.label.member, deepest.label.member, deepest.label.fraction, deepest.depth, length,
+                      wall.interference > 0.0 ? ", more than its interference" : ""),
+          wall.interference > 0.0 ? "give it a greater interference, or move the wall" : how_to_part(wall, deepest));
   }
   constexpr double near = 1e-6;  // of the structure's length
   join_opposite(touches, known, near * structure.length_scale(), candidates, problems);

@@ -375,6 +375,11 @@ std::shared_ptr<const Observable> reaction_of(const Measured& from, Index dof) {
   return std::make_shared<KinkedForce>(*from.kinked, std::move(reaction), std::move(parts));
 }
 
+bool is_of_section_forces(deck::Component component) {
+  return component == deck::Component::axial_force || component == deck::Component::moment ||
+         component == deck::Component::max_moment || component == deck::Component::greatest_pressure;
+}
+
 std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& from, DeckProblems& problems) {
   std::vector<MonitorColumn> columns;
   for (const deck::Monitor& monitor : deck.monitors) {
@@ -382,11 +387,17 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measure
     std::shared_ptr<const Observable> quantity = shown_by(deck, from, monitor, problems);
     if (!quantity) {
       if (problems.count() > problems_before) continue;
-      problems.add(monitor.position, "monitor.component",
-                   "\"" + shown_name(monitor) + "\" does not have this component",
-                   "rotations need a beam, faces a section with a height, reactions a support, thickness the theory "
-                   "\"essenburg\"; axial-force and moment one member, which for a moment is a beam; these and what is "
-                   "greatest along a member no load increments");
+      if (deck.path.method == deck::PathMethod::incremental && is_of_section_forces(monitor.component)) {
+        problems.add(monitor.position, "monitor.component",
+                     deck::text_of(deck::component_words, monitor.component) +
+                         " is not available with load increments (method \"incremental\")",
+                     "remove the monitor, or use another method");
+        continue;
+      }
+      problems.add(
+          monitor.position, "monitor.component", "\"" + shown_name(monitor) + "\" does not have this component",
+          "a rotation needs a beam, a face a section with a height, a reaction a support, thickness the theory "
+          "\"essenburg\"; axial-force and moment need one member, and moment a beam");
       continue;
     }
     const auto raw = quantity;

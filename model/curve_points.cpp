@@ -63,6 +63,9 @@ class Beside {
 
 }  // namespace
 
+constexpr const char* several_modes =
+    "several modes are critical at once; add an imperfection that separates them, or follow another event";
+
 std::optional<FollowedEvent> followed(const System& system, const FoundEvent& found, std::string& problem) {
   const auto refuse = [&](const char* why) {
     problem = why;
@@ -74,19 +77,19 @@ std::optional<FollowedEvent> followed(const System& system, const FoundEvent& fo
   if (event.kind == EventKind::branch_point) {
     const BranchPoint& point = *event.branching;
     if (at_change || point.modes.empty())
-      return refuse("several ways leave a change of contact there: follow that change");
-    if (point.multiplicity > 1) return refuse("several modes are critical at once");
+      return refuse("several branches leave a contact change there; follow that contact change");
+    if (point.multiplicity > 1) return refuse(several_modes);
     return FollowedEvent{.criterion = Criterion::crossing};
   }
   if (at_change) {
     FollowedEvent contact{.criterion = Criterion::guard, .guards = vanishing_guards(system, found)};
     if (contact.guards.empty())
-      return refuse("what changes there is not met to the last digit, since the mesh changes with it");
+      return refuse("the contact change there is not exact, since the mesh changes with it; try other elements");
     return contact;
   }
   const bool crosses = std::any_of(found.arc.events.begin(), found.arc.events.end(),
                                    [](const Event& one) { return one.branching != nullptr; });
-  if (crosses && event.kind == EventKind::limit_point) return refuse("several modes are critical at once");
+  if (crosses && event.kind == EventKind::limit_point) return refuse(several_modes);
   return FollowedEvent{.criterion = Criterion::turning};
 }
 

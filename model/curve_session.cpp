@@ -22,7 +22,7 @@ deck::Deck deck_with_curve(const RunDescription& description) {
   throw InputError({Diagnostic{.file = description.deck,
                                .key = "curve",
                                .message = "the deck does not say which event is followed",
-                               .cure = "add a table [curve] with event, over and range"}});
+                               .cure = "add a table [curve] with event, parameter and range"}});
 }
 
 ArchiveModel model_of(const CurveTracing& tracing) {

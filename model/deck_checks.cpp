@@ -73,14 +73,14 @@ bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::
                                  [](const Candidate& candidate) { return candidate.opposite().has_value(); });
   if (held != candidates.end() && wants_increments(deck))
     problems.add({}, "path.method",
-                 "method \"incremental\" knows no member that walls hold from both sides without clearance, as " +
-                     held->label().wall + " does",
+                 "method \"incremental\" does not support walls without clearance on both sides of a member, such as " +
+                     held->label().wall,
                  "use \"spherical\", or leave a clearance");
   if (deck.walls.empty() || points_of_contact(deck).points == deck::ContactPoints::nodes) return false;
   if (held != candidates.end()) {
     problems.add({}, "contact.points",
-                 "points = \"moving\" knows no member that walls hold from both sides without clearance, as " +
-                     held->label().wall + " does",
+                 "points = \"moving\" does not support walls without clearance on both sides of a member, such as " +
+                     held->label().wall,
                  "use \"nodes\", or leave a clearance");
     return false;
   }
@@ -98,9 +98,10 @@ void check_between_nodes(const deck::Deck& deck, const SlidingContact& contact, 
   if (!entered) return;
   const deck::Wall& wall = *deck::find(deck.walls, entered->label.wall);
   problems.add(wall.position, "wall." + wall.name,
-               fmt::format("member \"{}\" is inside the wall at the start: at {}:{:.4g}, between nodes, by {:.4g}",
-                           entered->label.member, entered->label.member, entered->label.fraction, entered->depth),
-               "move the wall or the member apart");
+               fmt::format("member \"{}\" is inside the wall at the start: at {}:{:.4g}, between nodes, by {:.4g}{}",
+                           entered->label.member, entered->label.member, entered->label.fraction, entered->depth,
+                           deck.units.length.empty() ? "" : " " + deck.units.length),
+               "move the wall, or give it an interference");
 }
 
 void check_watched(const deck::Deck& deck, DeckProblems& problems) {
@@ -128,10 +129,11 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
                    "multiply all loads by lambda, or use method \"spherical\"");
   for (const deck::Load& load : deck.loads)
     if (std::holds_alternative<deck::Heat>(load.action))
-      problems.add(load.position, "load", "method \"incremental\" knows no temperatures", "use method \"spherical\"");
+      problems.add(load.position, "load", "method \"incremental\" does not support temperatures",
+                   "use method \"spherical\"");
   for (const deck::Load& load : deck.loads)
     if (std::holds_alternative<deck::Pressure>(load.action))
-      problems.add(load.position, "load", "method \"incremental\" knows no pressure that follows the axis",
+      problems.add(load.position, "load", "method \"incremental\" does not support follower pressure",
                    "use method \"spherical\"");
   for (const deck::Prescribed& moved : deck.prescribed)
     problems.add(moved.position, "prescribed", "method \"incremental\" moves no supports", "use method \"spherical\"");
@@ -160,8 +162,8 @@ std::string smoothed_law(const deck::Spring& spring) {
       at = u;
     }
   return fmt::format(
-      "the law of {} is smooth between its points: at displacement {:.4g} it is {:.2g} % of its greatest force off a "
-      "straight line; write interpolation = \"smooth\" if this is meant, or give points closer together",
+      "the law of {} is smooth between its points: at displacement {:.4g} it is {:.2g} % of its maximum force off a "
+      "straight line; give points closer together, or confirm it with interpolation = \"smooth\"",
       spring.name.empty() ? "a spring" : "spring \"" + spring.name + "\"", at, 100.0 * off / greatest);
 }
 

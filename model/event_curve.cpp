@@ -47,7 +47,7 @@ void require_curve(const deck::Deck& deck) {
   if (const auto* const found = std::get_if<deck::DeckNumber>(&number); found != nullptr && !curve.parameter.empty())
     if (found->value < curve.range[0] || found->value > curve.range[1])
       add("curve.range", fmt::format("the deck's own value of {}, {}, is outside", curve.parameter, found->value),
-          "give a range that holds it");
+          "give a range that contains it");
   problems.raise();
 }
 

@@ -202,7 +202,7 @@ std::string_view explanation(EndReason reason) {
     case EndReason::not_modelled:
       return "the path reaches a contact configuration that is not modelled";
     case EndReason::rigid_body_motion:
-      return "a body that neither supports nor contact hold was pushed away";
+      return "an unconstrained body was moved by more than 20 times the structure's size";
   }
   assert(false);
   return {};
@@ -239,7 +239,7 @@ std::string_view what_to_try(EndReason reason) {
       return "increase member.NAME.elements; if that does not help, set contact.points = \"nodes\" or contact.method = "
              "\"penalty\", and check that the loads converge with the number of elements";
     case EndReason::rigid_body_motion:
-      return "a support or a wall that holds the body, or [[prescribed]] instead of the load";
+      return "a support or a wall that restrains it, or [[prescribed]] instead of the load";
   }
   assert(false);
   return {};

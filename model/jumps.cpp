@@ -27,7 +27,7 @@ constexpr double pushes[] = {0.01, 0.03, 0.1};  // off the event, along the path
 // Falls take no more time than tracing, and about a second more: that is so many factorizations over the number of
 // unknowns. With members of theory Essenburg one of them costs some ten times as much as with others.
 constexpr double more_work = 4e5, more_work_for_essenburg = 1e5;
-constexpr const char* took_too_long = "what this run may do for falls beside its tracing does not suffice";
+constexpr const char* took_too_long = "the time limit of the jumps was met: twice the time of the tracing";
 
 // Stable equilibria of a record at a λ, but not beside the event at point `but` if it is one of the record's.
 std::vector<OnPath> stable_at(const Model& model, const Record& record, double lambda,
@@ -210,7 +210,7 @@ class Falls {
           descend(mesh_.system(), mesh_.state(pushed, loss.at.lambda), model_.options().factorization, left_);
       if (descent.end == DescentEnd::falls_away) {
         jump->reason = "no_equilibrium";
-        jump->why = "nothing holds the structure at this load";
+        jump->why = "the structure finds no equilibrium at this load";
         return jump;
       }
       if (descent.end == DescentEnd::cut_off) {
@@ -222,7 +222,7 @@ class Falls {
       if (mesh_.distance(descent.state.x.head(mesh_.size()), start) <= is_elsewhere) continue;
       if (descent.end == DescentEnd::not_found) {
         jump->reason = "not_found";
-        jump->why = "the descent came to no rest";
+        jump->why = "the motion did not come to rest";
         left = true;
         continue;
       }
@@ -255,7 +255,7 @@ class Falls {
       rest = *found;
     } else {
       jump.reason = "not_found";
-      jump.why = "it comes to rest where the traced path does not pass, and contact that slides is not found there";
+      jump.why = "its state lies on no traced branch, and with moving contact points it was not found there";
       return;
     }
     tell_state(model_, rest, jump);

@@ -11,6 +11,7 @@
 #include "model/build_monitors.hpp"
 #include "model/build_path.hpp"
 #include "model/build_structure.hpp"
+#include "model/deck/words.hpp"
 #include "model/deck_checks.hpp"
 #include "model/deck_mesh.hpp"
 #include "model/deck_scales.hpp"
@@ -138,6 +139,13 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
     warnings_.push_back("no bound in [path.stop] ends the path: it continues to path.max_points = " +
                         std::to_string(deck_->path.max_points) +
                         ", the default, whatever λ is then; give bounds, as stop = { lambda = [-1.0, 10.0] }");
+  if (deck_->path.events != EventSearch::locate && explore_.policy != BranchPolicy::primary &&
+      !wants_increments(*deck_))
+    warnings_.push_back("events = \"" + deck::text_of(deck::events_words, deck_->path.events) +
+                        "\" locates no bifurcations, so branches = \"" +
+                        deck::text_of(deck::branches_words, explore_.policy) +
+                        "\" has no effect and the run stays on its first branch; leave out events, or write branches = "
+                        "\"primary\"");
   if (const std::string warning = start_outside_bounds(deck_->path); !warning.empty() && !wants_increments(*deck_))
     warnings_.push_back(warning);
   options_.node_contacts =

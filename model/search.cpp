@@ -397,8 +397,8 @@ std::optional<BranchEnd> end_where_it_walks_back(const Model& model, const Recor
   if (!there || !is_one(mesh, counted(*there), {last.state, {.unstable = last.count.unstable}})) return std::nullopt;
   return BranchEnd{.reason = EndReason::not_modelled,
                    .detail =
-                       "the path walks back along itself behind two changes of contact between which nothing "
-                       "moves; the way on was not found"};
+                       "the path returns along itself after two contact changes between which nothing moves; no other "
+                       "continuation was found"};
 }
 
 void Search::search_at(double lambda) {

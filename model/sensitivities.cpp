@@ -86,14 +86,13 @@ void Sensitivities::Beside::build(const deck::Deck& deck, const deck::DeckNumber
     try {
       model = std::make_unique<Model>(with_number(deck, number, number.value + place.offset * h));
     } catch (const InputError& error) {
-      problem = "beside this value there is no deck: " + first_message(error);
+      problem = "a slightly different value gives no valid deck: " + first_message(error);
       return;
     }
     for (std::size_t stage = 0; stage < ended_stages.size(); ++stage) {
       const auto end = end_of_stage(deck, model->whole_deck(), stage, ended_stages[stage]);
       if (!end) {
-        problem =
-            "a stage before ended at something else than a bound of lambda, and what that changes is not followed";
+        problem = "an earlier load step did not end at a bound of lambda, and the change of its end is not followed";
         return;
       }
       model->begin_stage(*end);
@@ -166,7 +165,7 @@ EventDerivative Sensitivities::by_steps_from(std::size_t first, std::size_t numb
     const Beside& decks = beside(number, step);
     if (!decks.problem.empty()) return {.value = std::nullopt, .why_none = decks.problem};
     const auto samples = samples_of(decks, event);
-    if (!samples) return {.value = std::nullopt, .why_none = "beside this value the mesh is another one"};
+    if (!samples) return {.value = std::nullopt, .why_none = "a slightly different value gives another mesh"};
     EventDerivative derivative = derivatives.by(*samples);
     if (!derivative.steps_too_long) return derivative;
     if (step == first || derivative.off < best.off) best = std::move(derivative);

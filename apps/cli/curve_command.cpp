@@ -60,7 +60,7 @@ ExitStatus curve(const Options& options) {
   if (!deck.curve)
     throw InputError(
         fmt::format("{}: curve: the deck does not say which event is followed; add a table [curve] with "
-                    "event, over and range",
+                    "event, parameter and range, or with event, worst and radius",
                     of.deck));
   const fs::path out = options.text("out").value_or(fs::path(of.deck).stem().string() + "-curve");
   require_other_than_input(out, of.deck);

@@ -46,7 +46,7 @@ std::string range_words(const IntegerRange& range) {
 }  // namespace
 
 std::string listed(const std::vector<std::string>& words) {
-  constexpr std::size_t most = 12;
+  constexpr std::size_t most = 20;
   std::string text;
   for (std::size_t i = 0; i < std::min(words.size(), most); ++i) {
     if (i > 0) text += ", ";

@@ -51,11 +51,11 @@ void keys_of_curve(Keys& keys, EventToFollow& curve) {
   keys.text(optional("parameter", "none"), curve.parameter,
             "the key that varies, as in `--set`: `\"wall.upper.profile.z\"`");
   keys.numbers(optional("range", "none"), curve.range, unit::none,
-               "of `parameter`: `[low, high]`, with the deck's own value inside");
+               "of `parameter`: `[low, high]`, with the deck's value inside");
   keys.number(optional("step", "1/100 of range"), curve.step, unit::none, positive,
               "increment of the parameter in the first predictor");
   keys.integer(optional("max_points"), curve.max_points, {.low = 1},
-               "limit on points on each side of the deck's own value");
+               "limit on points on each side of the deck's value");
   keys.numbers(optional("output_at", "none"), curve.output_at, unit::none,
                "values of the parameter at which a point is output");
   keys.any_texts(optional("worst", "none"), curve.worst,

@@ -77,7 +77,7 @@ void check_heat(Keys& keys, const Deck& deck, const Heat& heat) {
                     (material->expansion ? " has expansion = 0: temperatures do nothing" : " has no expansion"),
                 (material->expansion ? "give expansion of material." : "add expansion to material.") + material->name);
   if (member->theory == Theory::essenburg)
-    keys.report("on", "member " + member->name + " is of theory essenburg, which knows no temperatures",
+    keys.report("on", "member " + member->name + " is of theory essenburg, which does not support temperatures",
                 "take theory \"reissner\"");
   if (member->theory == Theory::truss && heat.gradient != 0.0)
     keys.report("gradient", "member " + member->name + " is a truss, which does not bend", "leave it out");
@@ -87,8 +87,9 @@ void heat_keys(Keys& keys, Heat& heat, const Deck& deck) {
   const bool on = keys.lists() || keys.name("on", heat.member, Named::member, "");
   keys.number(optional("temperature"), heat.temperature, unit::none, any_number,
               "instead of `distributed`: change of temperature of the member [degree]");
-  keys.number(optional("gradient"), heat.gradient, unit::curvature, any_number,
-              "temperature difference per length across the height [degree], hotter on the left; not for trusses");
+  keys.number(
+      optional("gradient"), heat.gradient, unit::none, any_number,
+      "through-depth temperature gradient [degree/length], positive if the left face is hotter; not for trusses");
   for (const char* key : {"distributed", "force", "moment"})
     keys.applies(keys.lists(), key, "does not go together with a temperature", "write two loads");
   frame_belongs_to_distributed(keys);

@@ -20,7 +20,7 @@ void structure_key(Keys& keys, Keep& keep) {
 void half_plane_keys(Keys& keys, HalfPlaneOutline& plane) {
   keys.vector("point", plane.point, unit::length, "");
   if (keys.vector("normal", plane.normal, unit::none, "") && plane.normal.x == 0.0 && plane.normal.z == 0.0)
-    keys.report("normal", "[0, 0] has no direction", "give the direction in which the body is, as [0.0, 1.0]");
+    keys.report("normal", "[0, 0] has no direction", "give the direction in which the structure is, as [0.0, 1.0]");
 }
 
 void circle_outline_keys(Keys& keys, CircleOutline& circle) {
@@ -89,7 +89,7 @@ void points_keys(Keys& keys, OutlinePoints& outline) {
   const bool right = curve_keys(keys, outline.x, outline.z);
   keys.flag(optional("closed"), outline.closed, "from the last point back to the first");
   const bool is_closed = keys.lists() || outline.closed;
-  if (keys.applies(is_closed, "structure", "belongs to a closed outline: of an open one the body is to the left",
+  if (keys.applies(is_closed, "structure", "belongs to a closed outline: the structure lies to the left of an open one",
                    "remove it, or write closed = true"))
     structure_key(keys, outline.keep);
   if (!right) return;
@@ -110,7 +110,7 @@ void check_corners(Keys& keys, const Wall& wall, const PolylineOutline& outline)
     if (radius == 0.0 && corner.is_hollow() && outline.without_hollows().size() == 1)
       return keys.report("outline",
                          where +
-                             " is hollow and sharp, and no other one is: what touches in it touches the outline twice, "
+                             " is re-entrant and sharp, and no other one is: a contact in it closes on both lines, "
                              "which is not modelled",
                          "give a corner_radius, or make two walls of it");
     const bool has_next = outline.closed || i + 1 < corners.size();
@@ -135,13 +135,15 @@ void outline_keys(Keys& keys, Wall& wall) {
               [&](HalfPlaneOutline& plane) { half_plane_keys(of, plane); }};
           const Option<CircleOutline> circle{"circle", "",
                                              [&](CircleOutline& round) { circle_outline_keys(of, round); }};
-          const Option<PolylineOutline> polyline{
-              "polyline", "straight from point to point; the body is to the left, of a closed one by `structure`",
-              [&](PolylineOutline& line) { points_keys(of, line); }};
+          const Option<PolylineOutline> polyline{"polyline",
+                                                 "straight from point to point. The structure lies to the left of the "
+                                                 "polyline; `structure` selects the side of a closed one",
+                                                 [&](PolylineOutline& line) { points_keys(of, line); }};
           const Option<EllipseOutline> ellipse{"ellipse", "`axes`: half of each",
                                                [&](EllipseOutline& oval) { ellipse_keys(of, oval); }};
           const Option<CurveOutline> curve{
-              "curve", "the interpolating cubic by chord length, smooth where it closes; the body as for a polyline",
+              "curve",
+              "the interpolating cubic by chord length, smooth where it closes; the structure as for a polyline",
               [&](CurveOutline& line) { points_keys(of, line); }};
           of.one_of("type", outline, "outline", half_plane, circle, polyline, ellipse, curve);
         },

@@ -80,7 +80,7 @@ void step_keys(Keys& keys, Path& path) {
   const bool min =
       keys.number(optional("min_step"), path.min_step, unit::none, positive, "arc length below which a branch ends");
   const bool max = keys.number(optional("max_step"), path.max_step, unit::none, positive,
-                               "maximum motion of the structure in a step, as a fraction of its size");
+                               "limit of the motion of the structure in a step, as a fraction of its size; not of λ");
   const bool both_right = min == keys.has("min_step") && max == keys.has("max_step");
   if (both_right && path.max_step < path.min_step)
     keys.report(keys.has("max_step") ? "max_step" : "min_step",
@@ -118,8 +118,8 @@ bool output_at_key(Keys& keys, const Key& output_at, std::vector<OutputValues>& 
 void search_keys(Keys& keys, Path& path) {
   keys.flag(optional("search"), path.search,
             "search for disconnected branches and trace them ([how-to](../how-to/disconnected-branches.md))");
-  keys.numbers(optional("search_at", "five values over the range of the events"), path.search_at, unit::none,
-               "load factors of the search");
+  keys.numbers(optional("search_at", "five values over the λ range of the events except start and end"), path.search_at,
+               unit::none, "load factors of the search");
   keys.integer(optional("search_guesses"), path.search_guesses, {.low = 1, .high = 1000000},
                "initial guesses per load factor");
   keys.integer(optional("search_seed"), path.search_seed, {.low = 0}, "seed of the guesses; results repeat exactly");
@@ -160,17 +160,20 @@ void path_keys(Keys& keys, Path& path) {
         "of `\"displacement\"`; the component is `\"x\"`, `\"z\"` or `\"rotation\"`");
   });
   step_keys(keys, path);
-  keys.word(optional("branches"), path.branches, branches_words,
-            "branch switching at bifurcations: `\"primary\"`, `\"most-stable\"` or `\"all\"`");
+  keys.word(
+      optional("branches"), path.branches, branches_words,
+      "branch switching at bifurcations: `\"primary\"`, `\"most-stable\"` or `\"all\"`; disconnected branches need "
+      "`search`");
   keys.integer(optional("depth"), path.depth, {}, "of `\"all\"`: generations of branches");
   keys.names(optional("watch", "none"), path.watch, Named::monitor, EmptyList::means_none,
              "monitors whose turning points are events (`turning-point`)");
   keys.word(optional("events"), path.events, events_words,
             "`\"locate\"`: limit and turning points become points of the path; `\"detect\"`: reported at the end of "
-            "their step; `\"none\"`: ignored. Contact changes are always located");
+            "their step; `\"none\"`: ignored. Only `\"locate\"` locates and follows bifurcations. Contact changes are "
+            "always located");
   keys.word(optional("equilibrium_family"), path.equilibrium_family, equilibrium_family_words,
             "if equilibrium fixes only the total length of several contact zones: `\"symmetric\"` continues with the "
-            "solution in which adjacent zones grow equally; `\"stop\"` ends the branch");
+            "solution in which the lengths of adjacent zones change by equal amounts; `\"stop\"` ends the branch");
   keys.flag(optional("jumps"), path.jumps,
             "compute the state that the structure jumps to, at constant λ, after each loss of stability "
             "([how-to](../how-to/snap-destination.md)); `false` in the cases of a sweep");
@@ -385,7 +388,7 @@ bool check_what_is_monitored(Keys& keys) {
               given.empty() ? "the monitor has none of `at`, `wall`, `member` and `spring`"
                             : "the monitor has both `" + given[0] + "` and `" + given.back() + "`",
               "give `at` for a place, `wall` for the force of a wall, both for the gap between them, `member` for the "
-              "greatest moment of a member, or `spring` for the force of a spring");
+              "maximum moment of a member, or `spring` for the force of a spring");
   return false;
 }
 

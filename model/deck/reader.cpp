@@ -113,7 +113,7 @@ void report_upright_walls(const Value& root, Findings& findings) {
     const std::string table = "wall." + std::to_string(i);
     const Value* profile = find(wall, "profile");
     findings.add_for_all_of(table, profile == nullptr ? wall.position : profile->key_position, table,
-                            "a profile z = ψ(x) with a side above or below cannot stand upright",
+                            "a profile z = ψ(x) with a side above or below cannot be vertical",
                             "give the wall, in place of profile and side, outline = { type = \"half-plane\", point = "
                             "[2.0, 0.0], normal = [-1.0, 0.0] }, with a point of it and its normal out of the wall");
   }

@@ -34,8 +34,9 @@ void tube_keys(Keys& keys, Tube& tube) {
 
 void section_keys(Keys& keys, Section& section) {
   const Option<Rectangle> rectangle{"rectangle", "", [&](Rectangle& shape) {
-                                      keys.number("width", shape.width, unit::length, positive, "along y");
-                                      keys.number("height", shape.height, unit::length, positive, "along z");
+                                      keys.number("width", shape.width, unit::length, positive, "out of plane");
+                                      keys.number("height", shape.height, unit::length, positive,
+                                                  "depth in the plane of bending");
                                     }};
   const Option<Circle> circle{"circle", "",
                               [&](Circle& shape) { keys.number("radius", shape.radius, unit::length, positive, ""); }};
@@ -43,7 +44,7 @@ void section_keys(Keys& keys, Section& section) {
   const Option<General> general{
       "general", "", [&](General& shape) {
         keys.number("A", shape.A, unit::area, positive, "area");
-        keys.number("I", shape.I, unit::second_moment, positive, "second moment of area about y");
+        keys.number("I", shape.I, unit::second_moment, positive, "second moment of area for bending in the plane");
         keys.number(optional("shear_area"), shape.shear_area, unit::area, positive, "");
         keys.number(optional("height"), shape.height, unit::length, positive, "between the faces");
       }};

@@ -12,7 +12,7 @@ namespace {
 
 using Use = Synonym::Use;
 
-constexpr std::array<Synonym, 74> all_synonyms{{
+constexpr std::array<Synonym, 76> all_synonyms{{
     {"land", "output_at", Use::read},
     {"landing", "jumps", Use::read},
     {"search_tries", "search_guesses", Use::read},
@@ -37,7 +37,9 @@ constexpr std::array<Synonym, 74> all_synonyms{{
     {"bar", "truss"},
     {"rod", "truss"},
     {"arc-length", "spherical"},
+    {"arc-length", "pseudo-arclength"},
     {"arclength", "spherical"},
+    {"arclength", "pseudo-arclength"},
     {"crisfield", "spherical"},
     {"rot", "rotation"},
     {"theta", "rotation"},
@@ -90,11 +92,12 @@ constexpr std::array<Synonym, 74> all_synonyms{{
 }};
 
 std::string found(std::string_view other, const std::vector<std::string>& candidates, auto&& is_used) {
+  std::string words;
   for (const Synonym& one : all_synonyms)
     if (one.other == other && is_used(one) &&
         std::find(candidates.begin(), candidates.end(), one.word) != candidates.end())
-      return std::string(one.word);
-  return {};
+      words += (words.empty() ? "" : " or ") + std::string(one.word);
+  return words;
 }
 
 }  // namespace

@@ -95,8 +95,8 @@ void check_faces(Keys& keys, const Deck& deck, const Wall& wall) {
 void wall_keys(Keys& keys, Wall& wall, std::unordered_set<std::string>& taken, const Deck& deck) {
   name_key(keys, taken, wall);
   const bool has_outline = keys.reads() ? keys.has("outline") : wall.outline.has_value();
-  if (keys.applies(!has_outline, "side", "belongs to a profile: an outline itself says on which side the body is",
-                   "remove it"))
+  if (keys.applies(!has_outline, "side",
+                   "belongs to a profile: the direction of an outline gives the side of the structure", "remove it"))
     keys.word("side", wall.side, side_words,
               "of a profile. `\"above\"`: the structure is below the wall; `\"below\"`: above it");
   keys.word(optional("contact_surface"), wall.contact_surface, contact_surface_words,

@@ -332,7 +332,8 @@ TEST(Outlines, WhatTheyCannotDoIsSaid) {
                 .find("is inside the wall at the start: at strip:0.6125, between nodes, by 0.004"),
             std::string::npos);
   EXPECT_NE(problem_of(strip.deck("type = \"circle\", centre = [0.6, -0.05], radius = 0.2"))
-                .find("member \"strip\" is inside the wall at the start: node strip:0.6 by 0.15; move the wall"),
+                .find("member \"strip\" is inside the wall at the start: node strip:0.6 by 0.15; move the wall, "
+                      "or give it an interference"),
             std::string::npos);
 }
 

@@ -307,7 +307,7 @@ stop = { event = "limit-point" }
   const auto& found = event_of(otherwise, EventKind::limit_point).sensitivity;
   ASSERT_EQ(found.size(), 1U);
   EXPECT_FALSE(found[0].slope);
-  EXPECT_NE(found[0].why_none.find("a stage before"), std::string::npos) << found[0].why_none;
+  EXPECT_NE(found[0].why_none.find("an earlier load step"), std::string::npos) << found[0].why_none;
 }
 
 // What is no number that changes by degrees is refused with what would be right.

@@ -191,15 +191,15 @@ TEST(Model, ASideThatIsTheWrongOneIsGuessed) {
   EXPECT_EQ(said_of_wall("above"), "");
   EXPECT_EQ(said_of_wall("below"),
             "odd.toml:30:1: wall.w: member \"column\" is inside the wall at the start: node column:0 by 0.6; side = "
-            "\"below\" means that the structure stays above the wall: is \"above\" meant? Else move the wall or the "
-            "member apart");
+            "\"below\" means that the structure stays above the wall: is \"above\" meant? Else move the wall, or "
+            "give it an interference");
 }
 
 TEST(Model, AWallThatIsEnteredInPartIsOnTheRightSide) {
   const std::string deck = deck_with_wall("above", "type = \"line\", z = 0.6, slope = -0.3333333333333333");
   const auto found = problems_of(deck);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found.front().cure, "move the wall or the member apart");
+  EXPECT_EQ(found.front().cure, "move the wall, or give it an interference");
   EXPECT_NE(found.front().message.find("node column:1 by 0.1581"), std::string::npos) << found.front().message;
 }
 
@@ -243,6 +243,28 @@ TEST(Model, WarnsOfAStartOutsideTheBoundsOfLambda) {
             std::string::npos);
 }
 
+// Bifurcations are followed only where they are located.
+TEST(Model, WarnsOfBranchesThatNoEventStarts) {
+  const auto warned = [](const std::string& path) {
+    const std::string text = std::string(deck::column_deck) + "[path]\nstop = { lambda = [-1.0, 1.0] }\n" + path;
+    const auto warnings = Model(deck::read_deck_text(text, "odd.toml", {})).warnings();
+    return warnings.empty() ? "" : warnings.front();
+  };
+  for (const char* found : {"branches = \"all\"\n", "events = \"detect\"\nbranches = \"primary\"\n"})
+    EXPECT_EQ(warned(found), "");
+  EXPECT_NE(warned("events = \"none\"\nbranches = \"all\"\n").find("branches = \"all\" has no effect"),
+            std::string::npos);
+  EXPECT_NE(warned("events = \"detect\"\n").find("events = \"detect\" locates no bifurcations"), std::string::npos);
+}
+
+TEST(Model, ADepthInAWallHasItsUnit) {
+  const std::string text =
+      "units = { length = \"cm\", force = \"kN\" }\n" + deck_with_wall("below", "type = \"flat\", z = 0.5");
+  const auto found = problems_of(text);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found.front().message.find("node column:0 by 0.6 cm"), std::string::npos) << found.front().message;
+}
+
 // A deck whose author forgot its bounds, and decks with one bound each.
 TEST(Model, WarnsOfAPathThatNothingEnds) {
   const auto warnings = [](const std::string& path) {
@@ -283,7 +305,7 @@ TEST(Model, WarnsOfAFoundationsLawThatIsSmoothUnasked) {
   };
   const std::string along = "on = \"column\"", at = "at = \"B\"", unasked = warned(along, "");
   EXPECT_NE(unasked.find("the law of spring \"bed\" is smooth between its points"), std::string::npos) << unasked;
-  EXPECT_NE(unasked.find("it is 15 % of its greatest force off"), std::string::npos) << unasked;
+  EXPECT_NE(unasked.find("it is 15 % of its maximum force off"), std::string::npos) << unasked;
   EXPECT_EQ(warned(along, ", interpolation = \"smooth\""), "");
   for (const std::string interpolation : {"", ", interpolation = \"smooth\"", ", interpolation = \"linear\""})
     EXPECT_EQ(warned(at, interpolation), "") << interpolation;

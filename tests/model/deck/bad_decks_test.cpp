@@ -185,7 +185,7 @@ TEST(BadDecks, Outlines) {
       {closed_ramp,
        "x = [10.5, 20.0, 30.0, 20.0], z = [-30.0, -20.0, -31.0, -24.0], closed = true, structure = \"outside\" }\n"
        "corner_radius = 0.0",
-       "wall.7.outline", "the corner at (20, -24) is hollow and sharp, and no other one is"},
+       "wall.7.outline", "the corner at (20, -24) is re-entrant and sharp, and no other one is"},
       {"x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0], closed = true, structure = \"outside\" }",
        "x = [10.5, 20.0, 11.0], z = [-30.0, -30.0, -30.0] }", "wall.7.outline", "turns back on itself"},
       {"corner_radius = 0.125", "corner_radius = 9.0", "wall.7.corner_radius", "too short; give a smaller"},
@@ -228,6 +228,8 @@ TEST(BadDecks, WallsAndContact) {
 TEST(BadDecks, Path) {
   expect_refused({
       {"method = \"displacement\"", "method = \"sperical\"", "path.method", "did you mean spherical?"},
+      {"method = \"displacement\"", "method = \"arclength\"", "path.method",
+       "did you mean spherical or pseudo-arclength?"},
       {"method = \"displacement\"", "method = \"normal_plane\"", "path.method", "did you mean normal-plane?"},
       {"control = { at = \"column:0.5\", component = \"x\" }", "", "path.control", "method displacement needs it",
        elsewhere},
@@ -283,6 +285,8 @@ TEST(BadDecks, Monitors) {
       {"name = \"end\"", "name = \"\"", "monitor.1.name", "is no name"},
       {"name = \"end\"", "name = \"e n d\"", "monitor.1.name", "is no name"},
       {"component = \"reaction-z\"", "", "monitor.1.component", "is missing", elsewhere},
+      {"component = \"reaction-z\"", "component = \"u\"", "monitor.1.component",
+       "force-z, gap, max-moment, greatest-pressure, thickness, thickness2"},
       {"component = \"reaction-z\"", "component = \"reaction-y\"", "monitor.1.component", "did you mean reaction-x?"},
       {"at = \"D\"", "at = \"strut:0.5\"", "monitor.1.at", "the nearest are strut:0 and strut:1"},
       {"at = \"D\"", "at = [6.0, 1.0]", "monitor.1.at", "wrong type"},

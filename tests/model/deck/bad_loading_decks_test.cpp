@@ -88,7 +88,7 @@ TEST(BadLoadingDecks, LoadsAndMovementsThatDoNothing) {
       {"expansion = 1.2e-5", "", "load.3.on", "material plain of member column has no expansion", elsewhere},
       {"on = \"column\"\ntemperature", "on = \"strut\"\ntemperature", "load.3.gradient", "a truss, which does not bend",
        2},
-      {"on = \"column\"\ntemperature", "on = \"arch\"\ntemperature", "load.3.on", "which knows no temperatures"},
+      {"on = \"column\"\ntemperature", "on = \"arch\"\ntemperature", "load.3.on", "which does not support temperatures"},
       {"on = \"column\"\ntemperature", "on = \"Q\"\ntemperature", "load.3.on", "not a member of this deck"},
       {"on = \"column\"\ntemperature", "at = \"B\"\ntemperature", "load.3.temperature", "belongs to a load on a member",
        1},

@@ -251,7 +251,7 @@ TEST(DeckReader, UprightWallsAreToldOnceWithTheOutlineThatTheyAre) {
                            "side = \"above\"\nprofile = { type = \"line\", z = 0.0, slope = inf }\n"}) {
     const std::string said = said_of_wall(keys);
     EXPECT_NE(
-        said.find("a profile z = ψ(x) with a side above or below cannot stand upright; give the wall, in place of "
+        said.find("a profile z = ψ(x) with a side above or below cannot be vertical; give the wall, in place of "
                   "profile and side, outline = { type = \"half-plane\""),
         std::string::npos)
         << said;
