@@ -45,8 +45,10 @@ ExitStatus trace_again(const Session& run, const std::string& folder, bool quiet
 bool tell(const verify::Verdict& verdict, const std::filesystem::path& folder, bool quiet) {
   if (const auto& first = verdict.findings.first()) {
     std::cerr << "error: " << folder.string() << "/" << to_text(*first) << "\n";
-    if (const Index more = verdict.findings.failures() - 1; more > 0)
-      std::cerr << "  and " << more << " more that " << (more == 1 ? "does" : "do") << " not hold\n";
+    if (verdict.findings.failures() > 1)
+      for (const verify::CheckSummary& check : verdict.findings.checks())
+        if (check.failures > 0)
+          std::cerr << "  failed: " << check.name << ", " << check.failures << " of " << check.count << "\n";
     return false;
   }
   if (!quiet) std::cout << to_text(verdict);

@@ -170,13 +170,13 @@ void check_turns(const Branch& branch, const Turning& of, EventSearch search, Fi
     findings.at("events.json", branch.id, step);
     if (before * after < 0.0)
       findings.require(complete, branch.has_event(step, step + later, turns),
-                       fmt::format("{} turns at step {} without an event", of.name, step));
+                       fmt::format("{} has a maximum or minimum at step {} without an event", of.name, step));
     else if (search == EventSearch::locate)
       findings.require(
           complete,
           !branch.has_event(step, step,
                             [&](const ListedEvent& event) { return turns(event) && event.kind != "branch-point"; }),
-          fmt::format("{} does not turn at step {}, where an event says so", of.name, step));
+          fmt::format("{} has no maximum or minimum at step {}, although an event is there", of.name, step));
   }
 }
 

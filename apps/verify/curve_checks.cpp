@@ -40,7 +40,7 @@ class CurveVerifier {
 
   Verdict run(const StoredCurve& files) {
     verdict_.findings.at("curve.csv", -1, 0);
-    verdict_.findings.require("curve.csv has a row a point", rows_.size() == curve_.points.size(),
+    verdict_.findings.require("curve.csv has one row per point", rows_.size() == curve_.points.size(),
                               fmt::format("{} rows, {} points", rows_.size(), curve_.points.size()));
     for (std::size_t i = 0; i < curve_.points.size(); ++i) {
       check_point(i);
@@ -71,7 +71,7 @@ class CurveVerifier {
     findings.require("there is a deck for each point", state.has_value(), why);
     if (!state) return;
     const bool well_formed = is_well_formed(*model, *state);
-    findings.require("states are finite and whole", well_formed, "its unknowns");
+    findings.require("states are finite and complete", well_formed, "its unknowns");
     if (well_formed) check_state(*model, *state, point);
   }
 
@@ -109,9 +109,9 @@ class CurveVerifier {
     if (!slides) findings.require("the stiffness is singular", range.most > range.least, "no eigenvalue is zero");
     if (!point.unstable_before || !point.unstable_after) return;
     const auto [low, high] = std::minmax(*point.unstable_before, *point.unstable_after);
-    findings.require(
-        "unstable directions", low <= range.most && high >= range.least,
-        fmt::format("{} and {} beside the event, eigenvalues say {} to {}", low, high, range.least, range.most));
+    findings.require("unstable directions", low <= range.most && high >= range.least,
+                     fmt::format("{} and {} on both sides of the event, eigenvalues give {} to {}", low, high,
+                                 range.least, range.most));
   }
 
   // One contact at least has neither a gap nor a force.
@@ -120,7 +120,7 @@ class CurveVerifier {
     for (const Touch& touch : at.touches.all)
       least = std::min(
           least, std::max(std::abs(touch.gap.value()) / at.scales.length, std::abs(touch.force) / at.scales.force));
-    verdict_.findings.compare("a contact has neither gap nor force", least, 1e-8);
+    verdict_.findings.compare("changing contact has zero gap or force", least, 1e-8);
   }
 
   // Texts of numbers are written to the last digit.
@@ -137,14 +137,14 @@ class CurveVerifier {
 
   void add_what_is_not_checked() {
     std::vector<std::string>& list = verdict_.not_checked;
-    list.emplace_back("arc and slope, and special points but for where they are: they are not told by single states");
+    list.emplace_back("arc and slope, and kinds of special points: single states do not determine them");
     if (curve_.event != EventKind::limit_point && curve_.event != EventKind::branch_point &&
         curve_.event != EventKind::contact_closes)
-      list.emplace_back("that the event is one: it is told by the path through it; --again traces that at some places");
+      list.emplace_back("that the path has the event there: --again traces the path at some points");
     else if (curve_.event != EventKind::contact_closes)
       list.emplace_back(
-          "that the stiffness is singular to the last digit where contact slides, whose mesh moves with it; --again "
-          "traces the path at some places");
+          "that the stiffness is singular to round-off, with moving contact points: --again traces the path at some "
+          "points");
   }
 
   const RunDescription& description_;
@@ -188,7 +188,7 @@ Comparison compare_with_runs(const CurveSession& session) {
     const double off = lambda ? std::abs(*lambda - point.lambda) / std::max(std::abs(point.lambda), 1e-300) : infinity;
     const std::string where = fmt::format("{} at {} = {:.10g}", to_text(curve.event), curve.key, point.key);
     if (off > another) {
-      comparison.reservations.push_back(where + " is not met by a run of the deck with that value");
+      comparison.reservations.push_back(where + " is not found by a run of the deck with that value");
       continue;
     }
     ++comparison.same;

@@ -37,6 +37,7 @@ void Findings::require(const std::string& check, bool holds, const std::string& 
 void Findings::add_failure(const std::string& check, const std::string& what, std::optional<double> value,
                            std::optional<double> bound) {
   ++failures_;
+  ++summary(check).failures;
   if (first_) return;
   first_ = Failure{.file = file_,
                    .branch = branch_,

@@ -22,6 +22,7 @@ struct CheckSummary {
   Index count = 0;                  ///< of values that were compared
   double value = 0.0, bound = 0.0;  ///< where value/bound is largest
   Index branch = 0, step = 0;       ///< likewise
+  Index failures = 0;               ///< values that do not hold
 };
 
 /// What was compared, and the first that does not hold.

@@ -69,10 +69,10 @@ void check_contacts(const PointAtHand& at, Findings& findings, bool waits) {
     const double gap = touch.gap.value();
     if (touch.closed) {
       if (touch.listed) findings.compare("contact forces push", -touch.force, force, named(touch.label));
-      findings.compare("closed contacts touch", std::abs(gap + touch.compliance * (touch.force - touch.against)),
-                       length, named(touch.label));
+      findings.compare("closed contacts have zero gap",
+                       std::abs(gap + touch.compliance * (touch.force - touch.against)), length, named(touch.label));
     } else if (std::isfinite(gap)) {
-      findings.compare("open contacts are outside", -gap, length, named(touch.label));
+      findings.compare("open contacts have no negative gap", -gap, length, named(touch.label));
     }
   }
   if (at.model.sliding() == nullptr || at.walls.empty()) return;
@@ -82,15 +82,15 @@ void check_contacts(const PointAtHand& at, Findings& findings, bool waits) {
                      entry.allowed + (waits ? entered_in_change * at.scales.length : 0.0), entry.where);
   if (!waits)
     for (const SplinePull& pull : spline_pulls(at.model, at.walls, at.point.state))
-      findings.compare("no part lies across where its wall would pull", pull.pull, pull.held, named(pull.label));
+      findings.compare("zones do not pull at spline knots", pull.pull, pull.held, named(pull.label));
   for (const Tangency& tangency : at.touches.tangencies) {
-    findings.compare("contacts that slide are tangent", std::abs(tangency.tilt.value()), 1e-9, named(tangency.label));
+    findings.compare("moving contacts are tangent", std::abs(tangency.tilt.value()), 1e-9, named(tangency.label));
     if (!tangency.end_of_pressed)
-      findings.compare("no moment holds a contact", std::abs(tangency.moment), force * at.scales.length,
+      findings.compare("tangency multiplier is zero", std::abs(tangency.moment), force * at.scales.length,
                        named(tangency.label));
   }
   for (const Pinched& pinched : at.touches.pinched)
-    findings.compare("closed contacts touch", std::abs(pinched.along.value()), length, named(pinched.label));
+    findings.compare("closed contacts have zero gap", std::abs(pinched.along.value()), length, named(pinched.label));
 }
 
 namespace {

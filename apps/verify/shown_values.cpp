@@ -126,8 +126,8 @@ void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double 
   double most = 0.0;
   for (const ShapePoint& point : model.body().shape(member, at.point.state))
     most = std::max(most, moment ? std::abs(point.moment) : pressure_of(*foundation, point.displacement));
-  findings.compare("nothing is greater than the greatest along a member", most - shown,
-                   same * std::abs(shown) + roundoff, "monitor " + monitor.name);
+  findings.compare("maximum along a member", most - shown, same * std::abs(shown) + roundoff,
+                   "monitor " + monitor.name);
 }
 
 }  // namespace arcwall::verify

@@ -107,7 +107,7 @@ void check_path_row(const Row& row, const RecordPoint& point, const PathExpectat
     const double count = number(rest[0]);
     const auto [least, most] = *expected.unstable;
     findings.compare("unstable directions", std::max(double(least) - count, count - double(most)), 0.0,
-                     fmt::format("unstable is {}, eigenvalues say {}{}", rest[0], least,
+                     fmt::format("unstable is {}, eigenvalues give {}{}", rest[0], least,
                                  least == most ? "" : fmt::format(" to {}", most)));
     findings.require("unstable directions", rest[1] != "stable" || count == 0.0, "stability is stable");
     findings.require("unstable directions", rest[1] != "unstable" || most > 0, "stability is unstable");
@@ -116,7 +116,7 @@ void check_path_row(const Row& row, const RecordPoint& point, const PathExpectat
     const double count = number(rest[6]);
     const auto [least, most] = *expected.unstable_load_control;
     findings.compare("unstable directions under dead loads", std::max(double(least) - count, count - double(most)), 0.0,
-                     fmt::format("unstable_load_control is {}, eigenvalues say {}{}", rest[6], least,
+                     fmt::format("unstable_load_control is {}, eigenvalues give {}{}", rest[6], least,
                                  least == most ? "" : fmt::format(" to {}", most)));
   }
   expect_same("path.csv matches the states", rest[0], point.count.unstable ? std::to_string(*point.count.unstable) : "",
@@ -190,8 +190,8 @@ void check_branches(const Json& branches, const Record& record, Findings& findin
     findings.require(events_check, whole_number(branch, "points") == points, "points of the branch");
     if (points == 0) continue;
     const Json& lambda = part(branch, "lambda");
-    findings.compare(events_check, std::abs(number(part(lambda, 0)) - least), 0.0, "least lambda of the branch");
-    findings.compare(events_check, std::abs(number(part(lambda, 1)) - greatest), 0.0, "greatest lambda");
+    findings.compare(events_check, std::abs(number(part(lambda, 0)) - least), 0.0, "minimum lambda of the branch");
+    findings.compare(events_check, std::abs(number(part(lambda, 1)) - greatest), 0.0, "maximum lambda");
   }
 }
 

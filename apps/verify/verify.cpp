@@ -103,27 +103,29 @@ std::vector<std::string> left_out(const Model& model, Index uncounted, bool move
   std::vector<std::string> sentences;
   if (model.in_increments())
     sentences.emplace_back(
-        "equilibrium, gaps, contact forces, energies, reactions and unstable directions: load increments leave a "
-        "residue, and their stresses are those of the increments before");
+        "equilibrium, gaps, contact forces, energies, reactions and unstable directions: load increments do not "
+        "satisfy equilibrium");
   else if (uncounted > 0)
     sentences.push_back(
         fmt::format("unstable directions at {} points: more than {} unknowns are too many for dense eigenvalues, which "
                     "are needed beside singular points",
                     uncounted, most_of_dense));
   if (model.contact() != nullptr && model.sliding() == nullptr)
-    sentences.emplace_back("whether members enter walls between nodes: contact at nodes knows of nodes alone");
+    sentences.emplace_back("penetration between nodes: node contact does not exclude it");
   if (model.sliding() != nullptr)
     sentences.emplace_back(
-        "how a member bends at the ends of parts pressed on a wall; and how contact slides along members of which an "
-        "element turns by more than 0.3 rad, which the mesh does not tell: any number of unstable directions is taken "
-        "from that where contact holds the member's direction to that where it does not");
+        "stability counts near zone ends, and where elements turn by more than 0.3 rad: checked only as an interval, "
+        "between contact rotations fixed and free");
   sentences.emplace_back(
-      "arc lengths, iterations, residuals, modes and types of branch points: they are not told by single states");
+      "arc lengths, iterations, residuals, critical modes and types of bifurcations: single states do not determine "
+      "them");
   if (moves_supports)
     sentences.emplace_back(
-        "unstable_load_control on meshes that slide, where held nodes touch, and where λ drives more than supports");
+        "unstable_load_control with moving contact points, with contact at supported nodes, and if λ moves more than "
+        "supports");
   if (!model.in_increments())
-    sentences.emplace_back("what happens and is undone between two points of the path; --again traces it anew");
+    sentences.emplace_back(
+        "pairs of events that cancel between two points of the path: --again traces the path with smaller steps");
   return sentences;
 }
 
@@ -143,12 +145,12 @@ class Verifier {
   Verdict run(const StoredFiles& files) {
     Findings& findings = verdict_.findings;
     findings.at("path.csv", 0, 0);
-    findings.require("path.csv has a row a point", path_rows_.size() == record_.points.size(),
+    findings.require("path.csv has one row per point", path_rows_.size() == record_.points.size(),
                      fmt::format("{} rows, {} points", path_rows_.size(), record_.points.size()));
     for (std::size_t i = 0; i < record_.points.size(); ++i)
       if (!check_point(i)) return verdict_;  // nothing else can be told
     findings.at("contacts.csv", 0, 0);
-    findings.require("contacts.csv has a row a contact", next_contact_ == contact_rows_.size(),
+    findings.require("contacts.csv has one row per closed contact", next_contact_ == contact_rows_.size(),
                      fmt::format("{} rows, {} closed contacts", contact_rows_.size(), next_contact_));
     const std::vector<ListedEvent> events = check_events(files.events_json, record_, model_, walls_, findings);
     if (!model_.in_increments()) check_completeness(events, record_, model_, findings);
@@ -177,7 +179,7 @@ class Verifier {
     const Index stage = record_.stage_number(point.branch);
     const Model& model = model_.at_stage(stage);
     const bool well_formed = is_well_formed(model, point.state);
-    findings.require("states are finite and whole", well_formed, "its unknowns");
+    findings.require("states are finite and complete", well_formed, "its unknowns");
     if (!well_formed) return false;
     const PointAtHand at = at_hand(model, point, walls_[static_cast<std::size_t>(stage)], scales_);
     PathExpectation expected{.contacts = listed_contacts(at.touches), .moves_supports = record_.moves_supports};

@@ -85,7 +85,7 @@ TEST(EventList, AnEventThatIsNoneIsSeen) {
   const auto failure = incompleteness(traced, events, traced.record());
   ASSERT_TRUE(failure.has_value());
   EXPECT_EQ(failure->step, false_one.step);
-  EXPECT_NE(failure->what.find("λ does not turn"), std::string::npos) << failure->what;
+  EXPECT_NE(failure->what.find("λ has no maximum or minimum"), std::string::npos) << failure->what;
 }
 
 TEST(EventList, ARowMovedFlippedOrBeyondTheBoundIsSeen) {
@@ -105,9 +105,10 @@ TEST(EventList, ARowMovedFlippedOrBeyondTheBoundIsSeen) {
   // Beside the point before it, and a little beyond: λ turns twice.
   EXPECT_NE(caught([&](RecordPoint& point) {
               point.lambda = before.lambda - 0.1 * (at.lambda - before.lambda);
-            }).find("λ turns at step"),
+            }).find("λ has a maximum or minimum at step"),
             std::string::npos);
-  EXPECT_NE(caught([](RecordPoint& point) { point.lambda = 1e3; }).find("turns at step"), std::string::npos);
+  EXPECT_NE(caught([](RecordPoint& point) { point.lambda = 1e3; }).find("has a maximum or minimum at step"),
+            std::string::npos);
   Record record = traced.record();
   const deck::StopBounds& bounds = traced.model().deck().path.stop.bounds.front();
   ASSERT_EQ(bounds.name, "lambda");
@@ -140,8 +141,8 @@ path = { step = 0.1, stop = { lambda = [-0.5, 1.0] } }
     return incompleteness(traced, events, record).value_or(Failure{}).what;
   };
   EXPECT_EQ(moved(-1, 1e-6), "");
-  EXPECT_NE(moved(-1, 1e-2).find("λ turns at step"), std::string::npos);
-  EXPECT_NE(moved(-2, 1e-4).find("λ turns at step"), std::string::npos);
+  EXPECT_NE(moved(-1, 1e-2).find("λ has a maximum or minimum at step"), std::string::npos);
+  EXPECT_NE(moved(-2, 1e-4).find("λ has a maximum or minimum at step"), std::string::npos);
 }
 
 // --- traced again
