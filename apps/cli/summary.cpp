@@ -50,11 +50,12 @@ std::unordered_map<std::string, FirstGap> first_gaps(const MultiplierContact& co
   return gaps;
 }
 
-std::string text_of(const FirstGap& first, const deck::Deck& deck) {
-  const std::string text = fmt::format("{} candidates", first.candidates);
-  if (first.at == nullptr) return text + ", none faces it";
+// With contact at nodes, the number of candidates too.
+std::string text_of(const FirstGap& first, bool at_nodes, const deck::Deck& deck) {
+  const std::string text = at_nodes ? fmt::format("{} candidates, ", first.candidates) : "";
+  if (first.at == nullptr) return text + "no member faces it";
   const ContactLabel& label = first.at->label();
-  return text + ", smallest initial gap " + with_unit(fmt::format("{:.6g}", first.gap), deck.units.length) +
+  return text + "smallest initial gap " + with_unit(fmt::format("{:.6g}", first.gap), deck.units.length) +
          fmt::format(" at {}:{:.4g}", label.member, label.fraction);
 }
 
@@ -85,7 +86,8 @@ void add_walls(const Model& model, Lines& lines) {
   auto gaps = contact == nullptr ? std::unordered_map<std::string, FirstGap>() : first_gaps(*contact, at_rest);
   for (const deck::Wall& wall : deck.walls)
     lines.add("walls", fmt::format("{}: {}, {}", wall.name, where_it_is(wall),
-                                   contact == nullptr ? "no candidates" : text_of(gaps[wall.name], deck)));
+                                   contact == nullptr ? "no member faces it"
+                                                      : text_of(gaps[wall.name], model.sliding() == nullptr, deck)));
 }
 
 void add_model(const Model& model, Lines& lines) {

@@ -259,7 +259,7 @@ std::optional<Convergence> converge(const deck::Deck& deck, const MeshStudy& stu
     if (!trace(with_stiffer_springs(own), study, run)) return std::nullopt;
     stiffer = std::move(run.record);
     found.notes.emplace_back(
-        "Walls are springs: the error holds how far they give way, from a run with springs ten times as stiff.");
+        "Walls are springs: the error includes their compression, from a run with springs ten times as stiff.");
   }
   compare_events(found, stiffer);
   return found;

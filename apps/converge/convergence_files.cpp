@@ -77,7 +77,7 @@ std::string mesh_table(const Convergence& study) {
 std::string event_table(const Convergence& study) {
   std::vector<TableColumn> columns{{"kind"}, figure("no."), {"what"}};
   for (const MeshRun& mesh : study.meshes) columns.push_back(figure(times_text(mesh.times)));
-  for (const char* title : {"order", "λ", "± error", "deck's ±"}) columns.push_back(figure(title));
+  for (const char* title : {"order", "λ", "± error", "± deck mesh"}) columns.push_back(figure(title));
   columns.push_back({"irregular"});
   std::vector<std::vector<std::string>> rows;
   for (const ConvergedEvent& one : study.events) {
@@ -131,9 +131,8 @@ std::string convergence_text(const Convergence& study) {
   if (!study.notes.empty()) text += "\n";
   if (study.events.empty()) return text + "No mesh has an event.\n";
   return text + event_table(study) +
-         "\nλ is extrapolated where the order is known, else that of the finest mesh; deck's ± is the error on the "
-         "deck's own "
-         "mesh.\n";
+         "\nλ is extrapolated where the order is known, else that of the finest mesh; ± deck mesh is the error on "
+         "the deck's mesh.\n";
 }
 
 std::string error_bars_text(const std::filesystem::path& folder, const Record& record, const StudiedDeck& of) {

@@ -103,9 +103,7 @@ std::string picture(const Record& record, const BranchMap& map) {
   const double y = lane_of(map.segments.size());
   std::string svg = fmt::format(
       "<svg id=\"branch-map\" class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"States over λ "
-      "and "
-      "what "
-      "leads from one to another\">\n",
+      "and the events between them\">\n",
       width, y + bottom);
   for (const BranchMapEdge& edge : map.edges) svg += edge_svg(axis, edge);
   for (std::size_t i = 0; i < map.segments.size(); ++i) svg += segment_svg(record, axis, map.segments[i], i);
@@ -163,14 +161,12 @@ std::string branch_map_section(const Record& record, const BranchMap& map) {
   return "<section aria-labelledby=\"branch-map-title\"><h2 id=\"branch-map-title\">Branch map</h2>\n<div "
          "class=\"scroll\">" +
          picture(record, map) +
-         "</div>\n<p class=\"note\">A line is a smooth segment of a branch, with its contacts and, in brackets, its "
-         "number "
-         "of "
-         "unstable directions; where it is dashed it is unstable. Upright lines are events that lead from one arc to "
-         "another, "
-         "dotted ones falls.</p>\n<div class=\"scroll\"><table id=\"stable\"><thead><tr><th class=\"figure\">from "
+         "</div>\n<p class=\"note\">Horizontal lines are segments of branches, with their contact pattern. Vertical "
+         "lines "
+         "are events between segments. Dotted lines are jumps. Dashed segments are unstable; brackets give the number "
+         "of unstable directions.</p>\n<div class=\"scroll\"><table id=\"stable\"><thead><tr><th class=\"figure\">from "
          "λ</th><th "
-         "class=\"figure\">to</th><th>stable</th><th>of these with the least energy</th></tr></thead><tbody>\n" +
+         "class=\"figure\">to</th><th>stable</th><th>minimum energy</th></tr></thead><tbody>\n" +
          stable_rows(map) + "</tbody></table></div></section>";
 }
 

@@ -135,11 +135,11 @@ std::string worst_text(const deck::Deck& deck, const WorstCombination& worst) {
     rows.push_back({worst.keys[i], shown_number(worst.own[i], 8), shown_number(worst.values[i], 8),
                     shown_number(worst.slopes[i], 6)});
   const auto figure = [](const char* title) { return TableColumn{title, TableColumn::Side::right}; };
-  return fmt::format("{} {}: λ falls from {} to {} within a radius of {}{}\n\n", to_text(deck.curve->event),
+  return fmt::format("{} {}: λ decreases from {} to {} within a radius of {}{}\n\n", to_text(deck.curve->event),
                      deck.curve->number, shown_number(worst.own_lambda, 10), shown_number(worst.lambda, 10),
                      shown_number(*deck.curve->radius, 6),
-                     worst.settled ? "" : " (the direction has not settled; this is the lowest found)") +
-         text_table({{"number"}, figure("own"), figure("worst"), figure("dλ/dn")}, rows);
+                     worst.settled ? "" : " (the direction has not converged; this is the lowest λ found)") +
+         text_table({{"number"}, figure("deck"), figure("worst"), figure("dλ/dn")}, rows);
 }
 
 ExitStatus curve_status(const EventCurve& curve) {

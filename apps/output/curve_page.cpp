@@ -131,7 +131,7 @@ std::string sides_html(const EventCurve& curve) {
                         shown_number(curve.points[last].key, 6), escaped(sides_text(curve.points[i])));
     i = last + 1;
   }
-  return "<table><thead><tr><th>" + escaped(curve.key) + "</th><th>before → behind the event</th></tr></thead><tbody>" +
+  return "<table><thead><tr><th>" + escaped(curve.key) + "</th><th>before → after the event</th></tr></thead><tbody>" +
          rows + "</tbody></table>";
 }
 

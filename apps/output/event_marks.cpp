@@ -63,9 +63,9 @@ std::string_view meaning(EventKind kind) {
     case EventKind::end:
       return "the branch ends";
     case EventKind::contact_closes:
-      return "first contact: a member comes into contact with a wall";
+      return "a member comes into contact with a wall";
     case EventKind::contact_opens:
-      return "release: a contact force becomes zero";
+      return "a contact is released: its force becomes zero, or a zone separates";
     case EventKind::contact_spreads:
       return "a contact point becomes a contact zone";
     case EventKind::contact_splits:
@@ -75,15 +75,15 @@ std::string_view meaning(EventKind kind) {
     case EventKind::contacts_merge:
       return "two contacts become one";
     case EventKind::contact_transfers:
-      return "contact moves between the end and the inside of a member, or over a joint";
+      return "contact moves between the end and the interior of a member, or over a joint";
     case EventKind::limit_point:
-      return "λ turns: a maximum or a minimum";
+      return "λ has a maximum or minimum";
     case EventKind::contact_limit_point:
-      return "λ turns at a change of contact";
+      return "λ reverses at a contact change or a kink";
     case EventKind::turning_point:
-      return "a watched monitor turns";
+      return "a watched monitor has a maximum or minimum";
     case EventKind::branch_point:
-      return "several branches meet";
+      return "bifurcation: branches intersect";
     case EventKind::user:
       return "located by a detector that a program added";
   }

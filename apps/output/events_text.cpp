@@ -91,7 +91,7 @@ std::string tree(const Record& record, std::optional<Index> parent, int depth) {
 std::string search_text(const Record& record) {
   const auto rows = search_rows(record);
   if (rows.empty()) return "";
-  std::string text = "\nEquilibria that were looked for beside the branches\n\n" + text_table(search_columns(), rows);
+  std::string text = "\nSearch for equilibria on other branches\n\n" + text_table(search_columns(), rows);
   if (const auto found = found_rows(record); !found.empty()) text += "\n" + text_table(found_columns(record), found);
   return text + "\n" + search_note() + "\n";
 }
@@ -128,8 +128,9 @@ std::string uncertainty_note(const Record& record) {
 std::string count_note(const Record& record) {
   const auto is_unknown = [](const RecordEvent& event) { return !event.unstable_before || !event.unstable_after; };
   if (std::none_of(record.events.begin(), record.events.end(), is_unknown)) return "";
-  return "unstable: the number of directions in which the structure gives way; ? where it cannot be told, because the "
-         "stiffness is singular there or contacts without a force decide.";
+  return "unstable: number of negative eigenvalues of the tangent stiffness; ?: the stiffness is singular, or a "
+         "contact "
+         "without force decides.";
 }
 
 std::string unstable_change(const RecordEvent& event) {
@@ -156,11 +157,11 @@ std::string events_text(const Record& record, const std::vector<std::string>& la
   text += tree(record, std::nullopt, 0);
   if (const auto rows = sensitivity_rows(record); !rows.empty())
     text +=
-        "\nWhat λ of the events depends on: its derivative by a number n of the deck, and by how many per cent it "
-        "changes where n grows by one\n\n" +
+        "\nSensitivities of λ of the events: dλ/dn by a number n of the deck, and the change of λ in per cent if n "
+        "increases by one per cent\n\n" +
         text_table(sensitivity_columns(), rows);
   if (const auto rows = jump_rows(record); !rows.empty())
-    text += "\nJumps at constant λ: destination, energy released, and λ of the return jump on unloading\n\n" +
+    text += "\nJumps at constant λ: destination, energy released, and λ of the return jump when λ is reversed\n\n" +
             text_table(jump_columns(record), rows);
   return printable(text + search_text(record), LineBreaks::kept);
 }

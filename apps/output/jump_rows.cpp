@@ -40,11 +40,23 @@ std::vector<TableColumn> jump_columns(const Record& record) {
 
 namespace {
 
+// `branch 0 near step 12`
+std::string place_of(const Record& record, const RecordJump& jump) {
+  if (!jump.on_branch) return "off the branches";
+  const RecordPoint* nearest = nullptr;
+  const auto distance = [&](const RecordPoint& point) { return std::abs(point.arc - jump.arc); };
+  for (const RecordPoint& point : record.points)
+    if (point.branch == *jump.on_branch && (nearest == nullptr || distance(point) < distance(*nearest)))
+      nearest = &point;
+  const std::string branch = "branch " + std::to_string(*jump.on_branch);
+  return nearest == nullptr ? branch : branch + " near step " + std::to_string(nearest->step);
+}
+
 std::vector<std::string> jump_row(const Record& record, const RecordEvent& event, const RecordJump& jump) {
   std::vector<std::string> row{std::to_string(event.id), shown_lambda(event, 8)};
-  const std::string on = jump.on_branch ? "branch " + std::to_string(*jump.on_branch) : "off the branches";
-  row.push_back(jump.reason.empty() ? on + (jump.contact_pattern.empty() ? "" : ": " + jump.contact_pattern)
-                                    : jump.reason + ": " + jump.why);
+  row.push_back(jump.reason.empty()
+                    ? place_of(record, jump) + (jump.contact_pattern.empty() ? "" : ": " + jump.contact_pattern)
+                    : jump.reason + ": " + jump.why);
   for (std::size_t i = 0; i < record.columns.size(); ++i)
     row.push_back(i < jump.monitors.size() ? shown_number(jump.monitors[i], 6) : "");
   row.push_back(jump.reason.empty() ? shown_number(jump.energy_released, 6) : "");

@@ -86,7 +86,7 @@ std::string outcome(const Record& record) {
                   counted(record.points.size(), "point", "points"), counted(record.events.size(), "event", "events"));
   if (record.branches.size() == 1 && record.branches.front().end)
     text += ". It ended: " + plain(how_it_ended(*record.branches.front().end), 400);
-  if (!record.branches.empty() && !record.branches.back().end) text += ". It is under way or was cut off";
+  if (!record.branches.empty() && !record.branches.back().end) text += ". It is not finished";
   return text;
 }
 
@@ -106,8 +106,9 @@ std::string early_ends(const Record& record, const std::string& warning) {
                         advice.empty() ? "" : fmt::format(" To go on: {}.", escaped(plain(advice, 400))));
   }
   if (count > most)
-    text += fmt::format("<p class=\"early\">{} further branches ended early; the tree of the branches says why.</p>",
-                        count - most);
+    text +=
+        fmt::format("<p class=\"early\">{} further branches ended early; the tree of branches gives the reasons.</p>",
+                    count - most);
   return text;
 }
 
@@ -159,7 +160,7 @@ Chart chart(const Record& record, const ReportContent& content, std::optional<st
     for (const Jump& jump : jumps(record))
       result.lines.push_back({.points = {{jump.from[*monitor], jump.lambda}, {jump.to[*monitor], jump.lambda}},
                               .colour = jump_colour,
-                              .stability = Stability::undecided});
+                              .is_arrow = true});
   const std::vector<std::size_t> first = first_points(record);
   const std::vector<double> zero = roundoff(record);
   for (const RecordEvent& event : record.events) {
@@ -205,8 +206,7 @@ std::string legend(const Record& record, const std::vector<Overlay>& overlays) {
   for (std::size_t i = 0; i < overlays.size(); ++i)
     text += fmt::format("<li>{}{}{}</li>", svg_line(overlay_colour(i), Stability::stable),
                         overlays[i].measured ? "measured: " : "", escaped(shown_name(overlays[i].name)));
-  if (!jumps(record).empty())
-    text += fmt::format("<li>{}jump at constant λ</li>", svg_line(jump_colour, Stability::undecided));
+  if (!jumps(record).empty()) text += fmt::format("<li>{}jump at constant λ</li>", svg_arrow(jump_colour));
   text += "</ul><ul class=\"legend\">";
   std::set<EventKind> kinds;
   for (const RecordEvent& event : record.events) kinds.insert(event.kind);
@@ -247,9 +247,9 @@ std::string stage(const ShapePictures& shapes) {
 std::string shape_notes(const Record& record, const ShapePictures& shapes) {
   std::vector<std::string> notes;
   if (shapes.greatest_force > 0.0)
-    notes.push_back(fmt::format("Arrows at the walls: their forces on the structure, the longest {}{}{}.",
-                                shown_number(shapes.greatest_force, 4), record.force_unit.empty() ? "" : " ",
-                                shown_name(record.force_unit)));
+    notes.push_back(fmt::format(
+        "Arrows at the walls: their forces on the structure. Arrow scale: {}{}{}, the maximum of the run.",
+        shown_number(shapes.greatest_force, 4), record.force_unit.empty() ? "" : " ", shown_name(record.force_unit)));
   if (shapes.pictures.size() < record.points.size())
     notes.push_back(fmt::format("Shapes are kept of {} of the {} points; a point without one shows the nearest.",
                                 shapes.pictures.size(), record.points.size()));
@@ -323,7 +323,7 @@ std::string event_titles(const Record& record) {
   text += "<th class=\"figure\">λ</th><th>kind</th><th>what</th>";
   for (const RecordColumn& column : record.columns)
     text += fmt::format("<th class=\"beside figure\">{}</th>", escaped(shown_title(column)));
-  return text + "<th title=\"unstable directions; ? where they cannot be counted\">unstable</th></tr>";
+  return text + "<th title=\"number of negative eigenvalues; ?: undecided\">unstable</th></tr>";
 }
 
 std::string event_note(const Record& record) {
@@ -362,8 +362,8 @@ std::string sensitivities(const Record& record) {
 
 std::string jump_table(const Record& record) {
   return table_section("jumps", "Jumps at constant λ",
-                       "Where a stable path ends, the structure jumps. The row gives the state that it comes to rest "
-                       "in, the energy released, the λ at which it jumps back, and the energy dissipated in the loop.",
+                       "Where the path loses stability, the structure jumps. Each row gives destination, energy "
+                       "released, return load and energy dissipated. An empty cell: no return jump is known.",
                        jump_columns(record), jump_rows(record));
 }
 
@@ -440,35 +440,35 @@ nlohmann::ordered_json data_of(const Record& record, const ReportContent& conten
 }  // namespace
 
 ReportPage::ReportPage(const Record& record, const ReportContent& content)
-    : fields_{{"library_note",
-               report_parts().library.empty()
-                   ? "This trace-path was built without plotly: the curves are still pictures without zoom."
-                   : "Curves are drawn with plotly.js, whose licence (MIT) stands in the source of this page."},
-              {"title", escaped(title(record))},
-              {"source", escaped(fmt::format("{}, trace-path {}", plain(record.deck, 200), program_version()))},
-              {"description", description(content)},
-              {"outcome", escaped(outcome(record))},
-              {"early", early_ends(record, content.warning)},
-              {"monitors", monitor_choices(record)},
-              {"charts", charts(record, content)},
-              {"load_note", load_note(content)},
-              {"legend", legend(record, content.overlays)},
-              {"stage", stage(content.shapes)},
-              {"stretch_note", stretch_note(content.shapes)},
-              {"shape_notes", shape_notes(record, content.shapes)},
-              {"touching", record.has_walls ? "touching" : "without-walls"},
-              {"last_shape", std::to_string(std::max<std::size_t>(content.shapes.pictures.size(), 1) - 1)},
-              {"strip", strip(record, content.shapes)},
-              {"event_titles", event_titles(record)},
-              {"event_rows", event_rows(record)},
-              {"event_note", event_note(record)},
-              {"jump_table", jump_table(record)},
-              {"sensitivities", sensitivities(record)},
-              {"branches", branch_tree(record, std::nullopt)},
-              {"branch_map", content.branch_map},
-              {"deck", escaped(plain(content.deck_text))},
-              {"facts", facts(content)},
-              {"data", script_json(data_of(record, content))}} {
+    : fields_{
+          {"library_note", report_parts().library.empty()
+                               ? "This trace-path was built without plotly: the curves are still pictures without zoom."
+                               : "Curves are drawn with plotly.js, whose licence (MIT) is in the source of this page."},
+          {"title", escaped(title(record))},
+          {"source", escaped(fmt::format("{}, trace-path {}", plain(record.deck, 200), program_version()))},
+          {"description", description(content)},
+          {"outcome", escaped(outcome(record))},
+          {"early", early_ends(record, content.warning)},
+          {"monitors", monitor_choices(record)},
+          {"charts", charts(record, content)},
+          {"load_note", load_note(content)},
+          {"legend", legend(record, content.overlays)},
+          {"stage", stage(content.shapes)},
+          {"stretch_note", stretch_note(content.shapes)},
+          {"shape_notes", shape_notes(record, content.shapes)},
+          {"touching", record.has_walls ? "touching" : "without-walls"},
+          {"last_shape", std::to_string(std::max<std::size_t>(content.shapes.pictures.size(), 1) - 1)},
+          {"strip", strip(record, content.shapes)},
+          {"event_titles", event_titles(record)},
+          {"event_rows", event_rows(record)},
+          {"event_note", event_note(record)},
+          {"jump_table", jump_table(record)},
+          {"sensitivities", sensitivities(record)},
+          {"branches", branch_tree(record, std::nullopt)},
+          {"branch_map", content.branch_map},
+          {"deck", escaped(plain(content.deck_text))},
+          {"facts", facts(content)},
+          {"data", script_json(data_of(record, content))}} {
   const ReportParts& parts = report_parts();
   pieces_ = filled(parts.page, {{"style", parts.style}, {"script", parts.script}, {"library", parts.library}}, fields_);
 }

@@ -64,7 +64,7 @@ std::string fate_text(const RecordFound& found) {
     case FoundFate::beyond_stop:
       return "beyond path.stop, not traced";
     case FoundFate::not_traced:
-      return "no step leads off, not traced";
+      return "no step from it converges, not traced";
   }
   return "";
 }
@@ -87,8 +87,8 @@ OrderedJson found_json(const Record& record, const RecordFound& found) {
 
 std::vector<TableColumn> search_columns() {
   const auto figure = [](std::string title) { return TableColumn{std::move(title), TableColumn::Side::right}; };
-  return {figure("λ"),      figure("known"),       figure("guesses"),        figure("found"),
-          figure("images"), figure("known again"), figure("of nodes alone"), figure("none")};
+  return {figure("λ"),     figure("on branches"), figure("guesses"),  figure("found"), figure("mirror_image"),
+          figure("known"), figure("nodes_only"),  figure("not_found")};
 }
 
 std::vector<std::vector<std::string>> search_rows(const Record& record) {
@@ -128,7 +128,7 @@ std::vector<std::vector<std::string>> found_rows(const Record& record) {
 }
 
 std::string search_note() {
-  return "What was not found may be there all the same: more guesses, another seed or other values of λ may find it.";
+  return "A search is not complete: more guesses, another seed or other values of λ may find further equilibria.";
 }
 
 OrderedJson search_json(const Record& record) {

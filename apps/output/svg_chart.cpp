@@ -89,19 +89,32 @@ std::string grid(const Scales& scales) {
 std::string path_data(const std::vector<Vec2>& points, const Scales& scales) {
   constexpr double least_step = 0.3;
   std::string data;
-  std::optional<Vec2> last;
+  bool goes_on = false;
+  Vec2 last = Vec2::Zero();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) {
-      last.reset();
+      goes_on = false;
       continue;
     }
     const Vec2 place = scales.place(points[i]);
     const bool at_end = i + 1 == points.size();
-    if (last && !at_end && (place - *last).norm() < least_step) continue;
-    data += fmt::format("{}{:.1f} {:.1f}", last ? "L" : "M", place.x(), place.y());
+    if (goes_on && !at_end && (place - last).norm() < least_step) continue;
+    data += fmt::format("{}{:.1f} {:.1f}", goes_on ? "L" : "M", place.x(), place.y());
     last = place;
+    goes_on = true;
   }
   return data;
+}
+
+// The head of an arrow that ends at `tip`; empty if its direction is not defined.
+std::string head_of_arrow(const Vec2& tail, const Vec2& tip) {
+  constexpr double length = 9.0, half_width = 4.5;
+  const Vec2 along = (tip - tail).normalized(), across(-along.y(), along.x());
+  if (!along.allFinite() || along.isZero(0.0)) return "";
+  const Vec2 left_corner = tip - length * along + half_width * across;
+  const Vec2 right_corner = tip - length * along - half_width * across;
+  return fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}", left_corner.x(), left_corner.y(), tip.x(), tip.y(),
+                     right_corner.x(), right_corner.y());
 }
 
 std::string mark_outline(const EventMark& mark, const Vec2& place, double radius) {
@@ -145,8 +158,10 @@ std::string svg_chart(const Chart& chart) {
   const Scales scales{.across = scale_of(chart, 0, left, right), .up = scale_of(chart, 1, bottom, top)};
   std::string lines;
   for (const ChartLine& line : chart.lines)
-    lines += fmt::format("<path class=\"line\" stroke=\"{}\"{} d=\"{}\"/>", line.colour, dashes(line.stability),
-                         path_data(line.points, scales));
+    lines += fmt::format(
+        "<path class=\"line\" stroke=\"{}\"{} d=\"{}\"/>", line.colour, dashes(line.stability),
+        path_data(line.points, scales) +
+            (line.is_arrow ? head_of_arrow(scales.place(line.points.front()), scales.place(line.points.back())) : ""));
   return fmt::format(
       "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" data-across=\"{}\" data-up=\"{}\">{}"
       "<text class=\"axis\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>"
@@ -181,6 +196,13 @@ std::string svg_line(const std::string& colour, Stability stability) {
       "<svg class=\"key wide\" viewBox=\"0 0 40 16\" aria-hidden=\"true\"><path class=\"line\" stroke=\"{}\"{} "
       "d=\"M1 8H39\"/></svg>",
       colour, dashes(stability));
+}
+
+std::string svg_arrow(const std::string& colour) {
+  return fmt::format(
+      "<svg class=\"key wide\" viewBox=\"0 0 40 16\" aria-hidden=\"true\"><path class=\"line\" stroke=\"{}\" "
+      "d=\"M1 8H39{}\"/></svg>",
+      colour, head_of_arrow({1.0, 8.0}, {39.0, 8.0}));
 }
 
 }  // namespace arcwall

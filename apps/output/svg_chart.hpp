@@ -14,6 +14,7 @@ struct ChartLine {
   std::vector<Vec2> points{};
   std::string colour{};
   Stability stability = Stability::stable;  ///< drawn through, dashed or dotted
+  bool is_arrow = false;                    ///< from the first point to the last
 };
 
 /// An event of a chart.
@@ -47,5 +48,8 @@ std::string svg_mark(EventKind kind);
 
 /// A short line as the stability has it, as a small <svg> element, for legends.
 std::string svg_line(const std::string& colour, Stability stability);
+
+/// A short arrow, as a small <svg> element, for legends.
+std::string svg_arrow(const std::string& colour);
 
 }  // namespace arcwall

@@ -74,7 +74,7 @@ constexpr std::array statuses{ExitStatus::success,     ExitStatus::internal_erro
 std::string meaning(ExitStatus status) {
   switch (status) {
     case ExitStatus::success:
-      return "every branch ended where the deck said, or the command did what it should";
+      return "every branch ended as specified in the deck, or the command succeeded";
     case ExitStatus::internal_error:
       return "a defect of the program";
     case ExitStatus::wrong_input:
@@ -82,13 +82,13 @@ std::string meaning(ExitStatus status) {
     case ExitStatus::ended_early:
       return "a branch ended early, or a case of a sweep failed; what was traced is written";
     case ExitStatus::no_start:
-      return "there is no equilibrium at the start";
+      return "there is no equilibrium at the start, or curve cannot follow the event";
     case ExitStatus::file_error:
       return "a file cannot be read or written";
     case ExitStatus::limit_met:
       return "a limit on points or time was met";
     case ExitStatus::not_confirmed:
-      return "verify found something that does not hold";
+      return "a check of verify failed";
     case ExitStatus::out_of_memory:
       return "memory ran out; trace-path resume goes on from the last checkpoint";
     case ExitStatus::interrupted:

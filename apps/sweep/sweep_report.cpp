@@ -62,7 +62,7 @@ std::string summary(const Collection& collection, const Overview& of_all) {
 
 std::string failure_table(const Overview& of_all) {
   if (of_all.failures.empty())
-    return "<section><p>Every case ended as its deck says, or early behind its snap.</p></section>\n";
+    return "<section><p>Every case ended as its deck says, or early after its snap.</p></section>\n";
   std::string rows;
   for (const Failure& failure : of_all.failures)
     rows += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n", escaped(failure.reason),

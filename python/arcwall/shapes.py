@@ -34,7 +34,7 @@ class MemberShape:
     angle: np.ndarray  #: direction of the section's normal [rad]
     rotation: np.ndarray  #: rotation of the section from the stress-free shape [rad]
     axial_force: np.ndarray  #: axial force, tension positive [force]
-    moment: np.ndarray  #: bending moment, positive if it increases the curvature [force·length]
+    moment: np.ndarray  #: bending moment, positive if it increases dθ/ds, θ anticlockwise [force·length]
 
     def __repr__(self) -> str:
         return f"<arcwall.MemberShape of {len(self.x)} places>"

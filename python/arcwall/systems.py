@@ -244,7 +244,7 @@ def trace(
     weights : array_like, optional
         Weights of the squared norm of x in the path metric, shape (n,), not negative; 1/n by default.
     min_step, max_step : float, default 1e-8 and 0.2
-        Minimum and maximum arc length of a step [path metric].
+        Minimum arc length of a step, and limit of the motion of x in a step, not of λ [path metric].
     max_points : int, default 5000
         Maximum number of points of a branch.
     max_seconds : float, optional

@@ -1,6 +1,7 @@
 // Where structures fall to, against closed forms, shooting and a slow motion with a step rule of its own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -122,7 +123,14 @@ TEST(Jump, OfATrussIsThatOfTheClosedForm) {
 
   const auto json = event_json(traced.record(), snap);
   EXPECT_NEAR(json["jump"]["monitors"]["w"].get<double>(), -2.1547005383793, 1e-9);
-  EXPECT_NE(events_text(traced.record()).find("jumps to"), std::string::npos);
+  const std::string text = events_text(traced.record());
+  EXPECT_NE(text.find("jumps to"), std::string::npos);
+  // The point whose monitor is next to that of the destination.
+  const auto& points = traced.record().points;
+  const auto far = [](const RecordPoint& point) { return std::abs(point.monitors.at(0) + 2.1547005383793); };
+  const auto nearest =
+      std::min_element(points.begin(), points.end(), [&](const auto& a, const auto& b) { return far(a) < far(b); });
+  EXPECT_NE(text.find(" branch 0 near step " + std::to_string(nearest->step) + " "), std::string::npos) << text;
 }
 
 // A run that is read back has its jumps, and none is looked for again.

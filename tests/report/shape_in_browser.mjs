@@ -9,7 +9,7 @@ test('section forces along a member and on the shape', async () => {
   const { page, finish } = await open(channel, {}, '#point=20');
   const curve = () => page.$eval('#diagram .line', (path) => path.getAttribute('d'));
   const of_moment = await curve();
-  assert.match(await page.textContent('#diagram-note'), /greatest .* kN·cm at .*least/);
+  assert.match(await page.textContent('#diagram-note'), /maximum .* kN·cm at .*minimum/);
   await page.locator('#slider').fill('30');
   assert.notEqual(await curve(), of_moment, 'they go with the point');
   for (const force of ['axial force', 'shear force', 'curvature', 'left face', 'right face']) {

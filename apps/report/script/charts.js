@@ -38,7 +38,7 @@ const plotly_chart = (picked) => {
       font: { family: 'system-ui, "Segoe UI", Roboto, Arial, sans-serif', size: 13, color: colour('ink') },
       modebar: { bgcolor: 'rgba(0,0,0,0)', color: colour('soft'), activecolor: colour('accent') },
       paper_bgcolor: colour('paper'), plot_bgcolor: colour('paper'),
-      annotations: fall_arrows(shown) };
+      annotations: jump_arrows(shown) };
     const config = { responsive: true, displaylogo: false, doubleClick: 'reset+autosize',
       modeBarButtons: [['toImage', 'zoom2d', 'pan2d', 'zoomIn2d', 'zoomOut2d', 'resetScale2d']],
       toImageButtonOptions: { filename: 'load', scale: 2 } };

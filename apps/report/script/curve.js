@@ -8,6 +8,8 @@ const as_text = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').
 
 const stability = (point) => {
   const unstable = points.unstable[point];
+  const is_singular = ({ kind }) => kind === 'limit-point' || kind === 'branch-point';
+  if (points.stability[point] === 'undecided' && (events_at.get(point) ?? []).some(is_singular)) return 'critical (tangent stiffness singular)';
   return points.stability[point] + (unstable > 0 ? ` in ${unstable} direction${unstable > 1 ? 's' : ''}` : '');
 };
 
@@ -45,8 +47,8 @@ const line_traces = ({ across, up }) => {
   return [...traces.values()];
 };
 
-// Where the structure falls to from a loss of stability, λ held: over monitors alone, of which jumps tell.
-const fall_arrows = ({ across, up }) => {
+// Where the structure jumps to from a loss of stability, at constant λ: over monitors alone, which jumps have.
+const jump_arrows = ({ across, up }) => {
   const monitor = columns.findIndex(({ name }) => name === across.key);
   if (up !== load || monitor < 0) return [];
   return data.jumps.map((jump) => ({ x: jump.to[monitor], y: jump.lambda, ax: jump.from[monitor], ay: jump.lambda,

@@ -24,7 +24,7 @@ const quantities = [
   { key: 'energy', name: 'energy', title: data.energy_unit === '' ? 'energy' : `energy [${data.energy_unit}]`, values: points.energy },
   { key: 'contacts', name: 'contacts', title: 'closed contacts', values: points.contacts },
   { key: 'unstable', name: 'unstable', title: 'unstable directions', values: points.unstable },
-  { key: 'step', name: 'step', title: 'step of the branch', values: points.step },
+  { key: 'step', name: 'step', title: 'number of the point', values: points.step },
 ];
 const load = quantities[0];
 const first_across = columns.length > 0 ? quantities[1] : quantities.find(({ key }) => key === 'arc');

@@ -58,8 +58,8 @@ const forces_panel = () => {
       return `${with_unit(round(values[i], 6), force.unit)} at ${round(samples[i][1], 4)}`;
     };
     element('diagram-note').textContent = known
-      ? `Along the member, from 0 to 1: greatest ${extreme(Math.max)}, least ${extreme(Math.min)}.`
-      : 'The section of this member does not say so much.';
+      ? `Along the member, from 0 to 1: maximum ${extreme(Math.max)}, minimum ${extreme(Math.min)}.`
+      : 'Not available: the section has no data for it.';
   };
 
   const draw_on_shape = (shape) => {

@@ -67,6 +67,10 @@ TEST_F(ProgramTest, LoadIncrementsMeetTheLevelsOfTheDeck) {
   // The beam lies on the foundation, 0.08 below.
   EXPECT_NEAR(std::stod(path[7][4]), -0.08, 1e-6);
 
+  const Outcome moment =
+      run("foundation.toml --set 'monitor=[{name=\"M\", member=\"beam\", component=\"max-moment\"}]'" + increments);
+  EXPECT_EQ(moment.status, 2);
+  expect_in("max-moment is not available with load increments", moment.err);
   const Outcome refused = run("truss.toml" + increments);
   EXPECT_EQ(refused.status, 2);
   expect_in("path.method: method \"incremental\" needs members of theory", refused.err);
@@ -489,7 +493,12 @@ TEST_F(ProgramTest, VerifyConfirmsARunAndNamesWhatDoesNotHold) {
   const Outcome refuted = run("verify truss");
   EXPECT_EQ(refuted.status, 7);
   expect_in("truss/path.csv: branch 0, step 2: path.csv matches the states: arc: ", refuted.err);
+  EXPECT_EQ(refuted.err.find("failed:"), std::string::npos) << refuted.err;
   EXPECT_EQ(refuted.out, "");
+
+  path.replace(path.find("\n0,3,") + 5, 2, "7.");
+  put(work() / "truss" / "path.csv", path);
+  expect_in("failed: path.csv matches the states, 2 of ", run("verify truss").err);
 
   EXPECT_EQ(run("verify nowhere").status, 5);
   fs::remove(work() / "truss" / "path.csv");

@@ -82,6 +82,22 @@ TEST(SvgChart, TellsStabilitiesApart) {
   EXPECT_NE(dashed, dotted);
 }
 
+// The head's tip is the last point of the line, and its corners lie before it.
+TEST(SvgChart, AnArrowHasItsHeadAtTheEnd) {
+  Chart chart = chart_of({{0.0, 1.0}, {3.0, 1.0}});
+  chart.lines[0].is_arrow = true;
+  const std::string svg = svg_chart(chart);
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(
+      svg, found, std::regex("d=\"M([0-9.]+) ([0-9.]+)L([0-9.]+) ([0-9.]+)M([0-9.]+) ([0-9.]+)L([0-9.]+) ([0-9.]+)L")));
+  EXPECT_EQ(found[7], found[3]);
+  EXPECT_EQ(found[8], found[4]);
+  EXPECT_LT(std::stod(found[5]), std::stod(found[3]));
+  EXPECT_NE(found[6], found[4]);
+  chart.lines[0].points.pop_back();
+  EXPECT_EQ(svg_chart(chart).find("nan"), std::string::npos);
+}
+
 TEST(SvgChart, StepsThatCannotBeSeenAreLeftOut) {
   std::vector<Vec2> points;
   for (int i = 0; i <= 100'000; ++i) points.emplace_back(i * 1e-5, 0.5 * i * 1e-5);
