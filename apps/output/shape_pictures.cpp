@@ -209,8 +209,18 @@ std::vector<Vec2> wall_band_of(const Frame& frame, const WallShape& wall) {
   return places;
 }
 
-// The paths in the order of classes_of().
-// At most so many samples of each member, of equal parts; where a force jumps both sides of the jump are kept.
+// Where a section force has its maximum and its minimum.
+std::set<std::size_t> extremes(const std::vector<ShapePoint>& points) {
+  std::set<std::size_t> places;
+  for (const auto force : {&ShapePoint::axial_force, &ShapePoint::shear_force, &ShapePoint::moment}) {
+    const auto [least, most] = std::minmax_element(
+        points.begin(), points.end(), [&](const ShapePoint& a, const ShapePoint& b) { return a.*force < b.*force; });
+    for (const auto place : {least, most}) places.insert(static_cast<std::size_t>(place - points.begin()));
+  }
+  return places;
+}
+
+// At most so many samples of each member, of equal parts; its extremes are kept, and both sides where a force jumps.
 std::vector<std::vector<ForceSample>> sampled_forces(const Shape& shape, std::size_t most) {
   std::vector<std::vector<ForceSample>> forces;
   for (const MemberShape& member : shape.members) {
@@ -218,9 +228,10 @@ std::vector<std::vector<ForceSample>> sampled_forces(const Shape& shape, std::si
     const auto& points = member.points;
     const std::size_t every = std::max<std::size_t>((points.size() + most - 1) / most, 1);
     const auto same_place = [&](std::size_t i, std::size_t j) { return points[i].fraction == points[j].fraction; };
+    const std::set<std::size_t> kept = extremes(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const bool jumps = (i > 0 && same_place(i, i - 1)) || (i + 1 < points.size() && same_place(i, i + 1));
-      if (i % every != 0 && i + 1 != points.size() && !jumps) continue;
+      if (i % every != 0 && i + 1 != points.size() && !jumps && !kept.contains(i)) continue;
       samples.push_back({.at = i,
                          .fraction = points[i].fraction,
                          .axial_force = points[i].axial_force,
@@ -231,6 +242,7 @@ std::vector<std::vector<ForceSample>> sampled_forces(const Shape& shape, std::si
   return forces;
 }
 
+// The paths in the order of classes_of().
 ShapePicture picture_of(const Frame& frame, const Greatest& greatest, std::size_t point, const Scene& scene) {
   std::string moving, springs, supports, loads, forces, touches;
   for (const WallShape& wall : scene.walls) moving += path_data(wall_band_of(frame, wall));

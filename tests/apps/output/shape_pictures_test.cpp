@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "model/deck/reader.hpp"
 
 namespace arcwall::shape_pictures_test {
@@ -113,6 +115,18 @@ Record long_record(Index points) {
   record.branches = {{.id = 0, .points = points}, {.id = 1, .points = 3}};
   record.points.resize(static_cast<std::size_t>(points) + 3);
   return record;
+}
+
+// 200 points, of which a diagram has some 40: the one with the largest moment, between those, is among them.
+TEST(ShapePictures, DiagramsKeepTheExtremesOfForces) {
+  std::vector<Vec2> line;
+  for (int i = 0; i <= 200; ++i) line.emplace_back(double(i), 0.0);
+  Scene scene = scene_of_line(line);
+  scene.shape.members.front().points[101].moment = -3.0;
+  const auto pictures = draw({{0}, {scene}}, {});
+  const auto& samples = pictures.pictures[0].forces.at(0);
+  EXPECT_LT(samples.size(), 50U);
+  EXPECT_TRUE(std::any_of(samples.begin(), samples.end(), [](const auto& one) { return one.moment == -3.0; }));
 }
 
 TEST(PointsToDraw, AreAllOfAFewPoints) { EXPECT_EQ(points_to_draw(long_record(7), 10).size(), 10u); }
