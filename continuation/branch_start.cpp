@@ -13,13 +13,14 @@ namespace arcwall {
 
 namespace {
 
-Arc first_arc(const PathPoint& at, std::vector<Event> corner_events) {
+// At a branch point K is singular; `behind` is the count on the branch right behind it.
+Arc first_arc(const PathPoint& at, const StabilityCount& behind, std::vector<Event> corner_events) {
   Arc arc{.to = at, .events = std::move(corner_events)};
   arc.events.insert(arc.events.begin(), Event{.kind = EventKind::start,
                                               .state = at.state,
                                               .residual = at.residual,
                                               .unstable_before = at.count.unstable,
-                                              .unstable_after = at.count.unstable});
+                                              .unstable_after = behind.unstable});
   return arc;
 }
 
@@ -78,7 +79,7 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
     entered = std::move(passed.entered);
     if (!entered) at = std::move(passed.at);
   }
-  begun.arc = first_arc(at, std::move(events));
+  begun.arc = first_arc(at, at.count, std::move(events));
   begun.from.point = entered ? std::move(entered->begin) : std::move(at);
   const PathPoint& from = begun.from.point;
   begun.step_length = std::abs(first / from.tangent.dlambda);
@@ -114,15 +115,16 @@ BranchBegun begin_at_branch_point(TraceTools& tools, const TracerState& state) {
   result.tangent = forward;
   PathPoint at = path_point(tools.system, metric, std::move(result), forward);
   at.negative_eigenvalues = std::nullopt;
-  at.count = {.unstable = start.unstable, .stability = Stability::undecided};
-  BranchBegun begun{.arc = first_arc(at, {}), .step_length = start.distance};
+  at.count = {};
+  BranchBegun begun{.step_length = start.distance};
   begun.from.signs = signs_at(tools.detectors, at);
-  begun.from.point = std::move(at);
   if (const auto behind = point_just_behind(tools, metric, start)) {
     begun.from.negative_eigenvalues = behind->negative_eigenvalues;
     begun.from.count_after = tools.counter.count(behind->state, behind->negative_eigenvalues);
     begun.from.zero_eigenvalues = 1;
   }
+  begun.arc = first_arc(at, begun.from.count_after, {});
+  begun.from.point = std::move(at);
   return begun;
 }
 
@@ -144,10 +146,11 @@ BranchBegun begin_behind_corner(TraceTools& tools, const TracerState& state) {
   };
   PathPoint corner = point_at(start.state, {.dx = Vector::Zero(start.state.x.size()), .dlambda = 1.0});
   corner.negative_eigenvalues = std::nullopt;
-  corner.count = {.unstable = start.unstable, .stability = Stability::undecided};
+  corner.count = {};
   PathPoint first = counted(entered.first);
-  BranchBegun begun{.arc = first_arc(corner, {})};
+  BranchBegun begun;
   begun.from.point = counted(entered.begin);
+  begun.arc = first_arc(corner, begun.from.point.count, {});
   const PathPoint& from = begun.from.point;
   const Metric metric = tools.metric_on(first.state.active_set, state.lambda_scale);
   begun.step_length = std::max(metric.distance(first.state, from.state), entered.distance);

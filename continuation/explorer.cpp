@@ -80,38 +80,22 @@ int preferred_sign(const std::vector<std::shared_ptr<const Observable>>& prefere
   return ways.front().sign;  // along the mode, whose largest component is positive
 }
 
-// The unstable directions at a branch point, where one that is neutral does not count. `near` are its ways, so short
-// that no other singular point lies between.
-std::optional<Index> unstable_at(const Event& event, const std::vector<TriedWay>& near) {
-  std::optional<Index> least;
-  const auto consider = [&](std::optional<Index> count) {
-    if (count && (!least || *count < *least)) least = count;
-  };
-  if (event.branching->ends_its_own_branch())
-    for (const TriedWay& way : near) consider(way.count.unstable);
-  else if (event.unstable_before && event.unstable_after)
-    for (const auto& count : {event.unstable_before, event.unstable_after}) consider(count);
-  return least;
-}
-
 // No farther than where the way is known to be free: the first step must not find a wall ahead, for whose sake its
 // start, at which K is singular, would be described anew.
-BranchStart start_along(const Event& event, const TriedWay& tried, std::optional<Index> unstable) {
+BranchStart start_along(const Event& event, const TriedWay& tried) {
   const BranchPoint& point = *event.branching;
-  if (tried.entered) return {.state = event.state, .entered = tried.entered, .unstable = unstable};
+  if (tried.entered) return {.state = event.state, .entered = tried.entered};
   BranchStart start{.state = point.state};
   start.state.active_set = tried.step.state.active_set;
   start.forward = tried.way.forward;
   start.mode = tried.way.across;
   start.distance = tried.step.distance;
-  start.unstable = unstable;
   return start;
 }
 
 BranchStart start_along(const System& system, const Event& event, const BranchPoint::Way& way, double distance) {
   BranchStart start{.state = system.with_active_set(event.branching->state, way.active_set), .distance = distance};
   start.forward = start.mode = way.direction;
-  start.unstable = event.unstable_before;
   return start;
 }
 
@@ -253,13 +237,10 @@ void Explorer::leave(const Event& event, const BranchPoint& point, const std::ve
   const Metric metric(system_.weights(point.state.active_set), lambda_scale_);
   const bool mirror_ahead = point.ends_its_own_branch();
   const bool mirror_image = mirror_images(ways);
-  const std::optional<Index> unstable = unstable_at(
-      event, mirror_ahead ? tried_ways(system_, trace_, point, metric, just_behind * options_.distance) : ways);
   const int preferred = preferred_sign(options_.preference, point, ways, metric);
   if (options_.policy == BranchPolicy::all) {
     for (const TriedWay& way : ways)
-      if (!mirror_image || way.sign == preferred)
-        enqueue(event, start_along(event, way, unstable), way.sign, mirror_image);
+      if (!mirror_image || way.sign == preferred) enqueue(event, start_along(event, way), way.sign, mirror_image);
     if (mirror_ahead)
       tracer_->stop(
           {.reason = EndReason::reached_branch, .detail = "joins the branch from which it and its mirror image leave"});
@@ -271,7 +252,7 @@ void Explorer::leave(const Event& event, const BranchPoint& point, const std::ve
   };
   const TriedWay& best = *std::min_element(ways.begin(), ways.end(),
                                            [&](const TriedWay& a, const TriedWay& b) { return rank(a) < rank(b); });
-  enqueue(event, start_along(event, best, unstable), best.sign, mirror_image);
+  enqueue(event, start_along(event, best), best.sign, mirror_image);
   const auto next = static_cast<int>(branches_.size());
   tracer_->stop(
       {.reason = EndReason::switched_branch, .detail = "continues as branch " + std::to_string(next), .partner = next});

@@ -111,7 +111,6 @@ struct BranchStart {
   std::optional<EnteredBranch> entered{};  ///< after an active-set change
   Direction mode{};                        ///< critical mode; its component is constant in the first step
   double distance = 0.02;                  ///< length of the first step from a branch point [path metric]
-  std::optional<Index> unstable{};         ///< number of unstable directions at the branch point
   std::optional<double> lambda_scale{};    ///< λ₀ of the metric, as on the branches before
   std::vector<KnownPoint> known{};         ///< branch points at which this branch ends (reached_branch)
 };

@@ -124,7 +124,9 @@ std::vector<Event> events_at(const TraceTools& tools, const StepOrigin& origin, 
   if (!end.singular.empty()) {
     const SingularPoint& first = end.singular.front();
     if (first.branching) events.push_back(branch_point_event(origin, first, end.point, behind));
-    if (first.place.what == EventPlace::What::detector) {
+    // λ turns on the branch of a pitchfork where that is: both are one event.
+    const bool is_own_pitchfork = first.branching && first.branching->ends_its_own_branch();
+    if (first.place.what == EventPlace::What::detector && !is_own_pitchfork) {
       events.push_back(detector_event(tools, origin, end, behind));
       events.back().unconfirmed = first.unconfirmed && !first.branching;
       if (events.back().unconfirmed) events.back().extremum.reset();  // λ touches its extreme value without turning

@@ -133,8 +133,8 @@ void parts(Archive& archive, EnteredBranch& entered) {
 
 template <typename Archive>
 void parts(Archive& archive, BranchStart& start) {
-  archive(start.state, start.sense, start.forward, start.entered, start.mode, start.distance, start.unstable,
-          start.lambda_scale, start.known);
+  archive(start.state, start.sense, start.forward, start.entered, start.mode, start.distance, start.lambda_scale,
+          start.known);
   archive.require(start.sense == 1 || start.sense == -1);
   archive.require(!start.forward || start.forward->dx.size() == start.state.x.size());
   archive.require(start.mode.dx.size() == 0 || start.mode.dx.size() == start.state.x.size());

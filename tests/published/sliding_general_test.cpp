@@ -187,8 +187,9 @@ TEST(SlidingContactPath, FindsThePitchforkBehindAPointWhosePivotsDoNotTellTheCou
     });
     ASSERT_NE(pitchfork, events.end());
     EXPECT_EQ(pitchfork->unstable_after, 2);
-    EXPECT_EQ(std::next(pitchfork)->kind, limit);
-    EXPECT_NEAR(std::next(pitchfork)->state.lambda, third, error);
+    for (const Event& event : events)
+      EXPECT_FALSE(event.kind == limit && std::abs(event.state.lambda - third) <= error)
+          << "the pitchfork is the place";
   }
 }
 
