@@ -40,6 +40,10 @@ class Figures:
     def cases(self, program: str) -> list[tuple[str, int]]:
         return list(dict.fromkeys(key[1:3] for key in self.least if key[0] == program))
 
+    def smallest_and_largest(self, program: str) -> list[tuple[str, int]]:
+        return [(case, size) for case, size in self.cases(program)
+                if size in (min(self.sizes(program, case)), max(self.sizes(program, case)))]
+
     def ratio(self, one: tuple, other: tuple) -> float | None:
         a, b = self.of(*one), self.of(*other)
         return a / b if a is not None and b else None
@@ -153,40 +157,40 @@ def foundation_against_getfem(f: Figures) -> float | None:
 
 
 GOALS = [
-    Goal("Lee's frame, 200 elements: time per iteration and element, over the yardstick's", 1.5, against_yardstick(200)),
+    Goal("Lee's frame, 200 elements: time per iteration and element, × the yardstick's", 1.5, against_yardstick(200)),
     Goal("the same with 2000 elements", 1.5, against_yardstick(2000)),
-    Goal("OpenSees' time per iteration and element, over arcwall's, 200 elements (by its ratio to the yardstick)", 3.0,
+    Goal("OpenSees, the same with 200, × arcwall's (by ratio)", 3.0,
          by_ratio_against_arcwall("OpenSees"), at_least=True),
-    Goal("LOCA's over arcwall's (by its ratio too)", 4.0, by_ratio_against_arcwall("LOCA"), at_least=True),
-    Goal("Octave's over arcwall's", 10.0, peer_against_arcwall("Octave"), at_least=True),
-    Goal("SciPy's over arcwall's", 10.0, peer_against_arcwall("SciPy"), at_least=True),
+    Goal("LOCA (by ratio)", 4.0, by_ratio_against_arcwall("LOCA"), at_least=True),
+    Goal("Octave", 10.0, peer_against_arcwall("Octave"), at_least=True),
+    Goal("SciPy", 10.0, peer_against_arcwall("SciPy"), at_least=True),
     Goal("Lee's frame to v = 90 cm: points at default settings", 130, lambda f: f.of("time_split", "lee", 200, "points")),
     Goal("iterations a point", 4.2, iterations_a_point),
-    Goal("Lee's frame, 20 elements: the whole process, over the yardstick's", 3.0,
+    Goal("Lee's frame, 20 elements: process, × the yardstick's", 3.0,
          lambda f: f.ratio(("trace-path", "lee", 20, "process"), ("chain_yardstick", "lee", 20, "process"))),
-    Goal("the same with neither report nor shapes, which the yardstick does not write", 3.0,
+    Goal("without report and shapes, which the yardstick does not write", 3.0,
          lambda f: f.ratio(("trace-path", "lee without pictures", 20, "process"),
                            ("chain_yardstick", "lee", 20, "process"))),
-    Goal("channel, 80 elements, all events: the whole process [s]", 0.15,
+    Goal("channel, 80 elements: process [s]", 0.15,
          lambda f: f.of("trace-path", "channel", 80, "process")),
-    Goal("foundation: GetFEM's path over arcwall's", 50.0, foundation_against_getfem, at_least=True),
-    Goal("time per iteration and element: 100000 elements over 100", 1.5, growth),
-    Goal("the same: maximum over minimum, of 100 to 100000 elements", 1.5, spread),
+    Goal("foundation: GetFEM's path, × arcwall's", 50.0, foundation_against_getfem, at_least=True),
+    Goal("time per iteration and element: 100000 elements, × 100 elements", 1.5, growth),
+    Goal("maximum over minimum, 100 to 100000 elements", 1.5, spread),
     Goal("memory per node of Lee's frame [kB]", 1.2, memory_a_node),
-    Goal("channel, 80 elements: a matrix with closed contacts, over one with open ones, by unknowns", 1.3,
+    Goal("channel, 80 elements: matrix with closed contacts, × with open ones, by unknowns", 1.3,
          closed_against_open("channel", 80)),
     Goal("the same with 1280 elements", 1.3, closed_against_open("channel", 1280)),
-    Goal("the same as a whole: moving contact has up to twice as many elements after contact", 1.3,
+    Goal("the same as a whole, with up to twice as many elements", 1.3,
          closed_against_open("channel", 1280, "per linearization")),
-    Goal("channel at nodes, 80 elements: a matrix with closed contacts, over one with open ones", 1.3,
+    Goal("channel at nodes, 80 elements: matrix with closed contacts, × with open ones", 1.3,
          closed_against_open("channel at nodes", 80)),
     Goal("the same with 1280 elements", 1.3, closed_against_open("channel at nodes", 1280)),
-    Goal("the same: time per contact change and element [µs]", 3.0, contact_time("channel at nodes", 1280)),
+    Goal("time per contact change and element [µs]", 3.0, contact_time("channel at nodes", 1280)),
     Goal("the same with 80 elements", 3.0, contact_time("channel at nodes", 80)),
-    *(Goal(f"square frame, {size} unknowns: factorization and two solutions, over the best of CHOLMOD's called directly",
-           1.1, solver_against_cholmod(size)) for size in (10000, 100000, 1000000)),
-    Goal("square frame, 100000 unknowns: everything else over these", 0.3, beside_solver(100000)),
-    Goal("square frame, 1000000 unknowns: everything else over these", 0.1, beside_solver(1000000)),
+    *(Goal(f"square frame, {size} unknowns: factorization and two solutions, × CHOLMOD's best", 1.1,
+           solver_against_cholmod(size)) for size in (10000, 100000, 1000000)),
+    Goal("square frame, 100000 unknowns: everything else, × these", 0.3, beside_solver(100000)),
+    Goal("square frame, 1000000 unknowns: everything else, × these", 0.1, beside_solver(1000000)),
 ]
 
 
@@ -196,8 +200,7 @@ def goals(f: Figures) -> str:
     if closed_against_open("channel", 1280)(f):
         text += """
 
-Moving contact makes a matrix more expensive by a border, which the figures by unknowns show, and by a finer mesh. Contact zones get
-elements of their own, and the parts beside them keep theirs ([decisions](decisions.md), "Parts beside a growing contact zone")."""
+Moving contact adds a border to the matrix, and elements to the mesh ([decisions](decisions.md), "Parts beside a growing contact zone")."""
     return text
 
 
@@ -220,10 +223,9 @@ def lee(f: Figures) -> str:
     return """## Lee's frame
 
 The yardstick (`benchmarks/chain_yardstick.cpp`) is written by hand for this frame and compiled for the machine it runs on. It
-locates no events, counts no unstable directions and takes some 200 steps. The time of a path, events included, is divided by all
-Newton iterations, events and failed attempts included. The fifth column divides it by those of accepted steps. *Per matrix* counts all
-matrices: `arcwall` forms more at converged points and for events. Up to 5000 elements the minimum of five runs counts. From 50000
-elements on the yardstick fails: the rounded diagonal of its matrix is as stiff as the frame.
+locates no events, counts no unstable directions and takes some 200 steps. From 50000 elements on it fails, by its rounded diagonal.
+Time and Newton iterations of a path include events and failed attempts; the fifth column counts iterations of accepted steps only.
+*Per matrix* counts all matrices: `arcwall` forms more for events.
 
 """ + table(["elements", "yardstick, µs per iteration and element", "arcwall, the same", "× per iteration",
              "× per iteration of accepted steps", "× per matrix", "points",
@@ -249,20 +251,19 @@ Lee's frame in the middle of its snap, repeated at one state [µs per element].
 def peers(f: Figures) -> str:
     rows = []
     for peer, ratio in BY_RATIO.items():
-        rows.append([f"{peer}, Lee's frame, 200 elements", ratio, by_ratio_against_arcwall(peer)(f)])
+        rows.append([f"{peer}, 200", ratio, by_ratio_against_arcwall(peer)(f)])
     for peer in ("Octave", "SciPy"):
         for n in f.sizes(peer, "lee"):
             theirs = (peer, "lee", n, PER_ITERATION)
-            rows.append([f"{peer}, Lee's frame, {n} elements", f.ratio(theirs, ("chain_yardstick again", *theirs[1:])),
+            rows.append([f"{peer}, {n}", f.ratio(theirs, ("chain_yardstick again", *theirs[1:])),
                          f.ratio(theirs, ("time_split", *theirs[1:]))])
-    text = table(["peer, time per iteration and element", "× the yardstick", "× arcwall"], rows)
+    text = table(["Lee's frame, elements: time per iteration and element", "× the yardstick", "× arcwall"], rows)
     other = []
     if value := f.ratio(("AUTO", "column between walls", 0, "path"), ("time_split", "channel", 20, "path")):
-        other.append(["AUTO, column between walls, 20 intervals on half of it, all contact states given by hand; arcwall: "
-                      "channel, 20 elements, contact found", value])
+        other.append(["AUTO, column between walls, 20 intervals on half of it, contact states given by hand; "
+                      "arcwall: 20 elements", value])
     if value := foundation_against_getfem(f):
-        other.append(["GetFEM, beam on a foundation, 40 × 4 plane elements on half of it, contact found, small displacements; "
-                      "arcwall: the example", value])
+        other.append(["GetFEM, beam on a foundation, 40 × 4 plane elements on half of it, small displacements", value])
     if other:
         text += "\n\n" + table(["peer, whole path", "× arcwall"], other)
     missing = [key[0] for key in f.least if key[1] == "not installed"]
@@ -270,8 +271,8 @@ def peers(f: Figures) -> str:
         text += f"\n\nNot installed: {', '.join(missing)}."
     return """## Peers
 
-Ratios above 1: the peer takes longer. OpenSees and LOCA have ratios to the yardstick that were measured elsewhere; all others ran beside
-arcwall. SciPy and Octave repeat the yardstick's method.
+OpenSees' and LOCA's ratios to the yardstick were measured elsewhere; all others ran beside arcwall.
+SciPy and Octave repeat the yardstick's method.
 
 """ + text
 
@@ -281,7 +282,7 @@ PARTS = {"assembly": "F, K, F_λ", "factorization": "LDLᵀ", "solution": "solut
 
 def split(f: Figures) -> str:
     rows = []
-    for case, size in f.cases("time_split"):
+    for case, size in f.smallest_and_largest("time_split"):
         def of(figure: str, case: str = case, size: int = size) -> float:
             return f.of("time_split", case, size, figure)
         own = of("linearizations of steps") / of("linearizations")
@@ -291,17 +292,16 @@ def split(f: Figures) -> str:
                      f"{100 * max(0.0, 1 - own):.0f}", (of("peak memory") - start) / of("nodes") if large else None])
     return """## Where the time goes
 
-Shares of tracing in percent, events included, outputs excluded; the rest is everything else. *K for events* is the share of matrices for
-events, stability counts and active-set changes. *LDLᵀ* includes the two solves of each iteration; *solutions* are all others. Sizes
-are elements, for star and square frame unknowns. *kB a node* is the memory above that of Lee's frame with 20 elements.
-Up to 5000 elements the parts are timed in a second run.
+Shares of tracing, outputs excluded, for the smallest and the largest size (elements; star and square frame: unknowns).
+*K for events*: share of matrices for events, stability counts and active-set changes. *LDLᵀ* includes the two solves of each iteration;
+*solutions* are all others. *kB a node*: memory above that of Lee's frame with 20 elements.
 
 """ + table(["case", "path [s]", *(f"{part} [%]" for part in PARTS.values()), "K for events [%]", "kB a node"], rows)
 
 
 def processes(f: Figures) -> str:
     rows = []
-    for case, size in f.cases("trace-path"):
+    for case, size in f.smallest_and_largest("trace-path"):
         whole = f.of("trace-path", case, size, "process")
         path = f.of("time_split", case, size, "path")
         rows.append([case + (f", {size}" if size else ""), whole, path / whole if path else None,
@@ -309,11 +309,11 @@ def processes(f: Figures) -> str:
     per_node = memory_a_node(f), memory_a_node(f, "trace-path", "peak memory of the process")
     return """## Whole processes and memory
 
-`trace-path run`, with report, shapes and all other files.
+`trace-path run`, with all files, for the smallest and the largest size.
 
 """ + table(["case", "process [s]", "of it tracing", "peak memory [MB]"], rows) + (
-        f"\n\nLee's frame takes {shown(per_node[0])} kB a node while tracing. The program takes {shown(per_node[1])} kB, since it\n"
-        "keeps all points of the path for its files." if None not in per_node else "")
+        f"\n\nLee's frame takes {shown(per_node[0])} kB a node while tracing. "
+        f"The program takes {shown(per_node[1])} kB: it keeps all points." if None not in per_node else "")
 
 
 def frames(f: Figures) -> str:
@@ -326,8 +326,8 @@ def frames(f: Figures) -> str:
                      *(value / base if value else None for value in each)])
     return """## Frames
 
-One factorization and two solutions with K of the square frame at rest, and its assembly, over CHOLMOD's simplicial LDLᵀ called
-directly. The supernodal one is LLᵀ: it serves definite matrices alone.
+Assembly, and one factorization with two solutions, of the square frame at rest, × CHOLMOD's simplicial LDLᵀ called directly.
+The supernodal one is LLᵀ, for definite matrices alone.
 
 """ + table(["unknowns", "assembly", *by], rows) if rows else ""
 
@@ -367,8 +367,8 @@ def frame_rates(f: Figures, multiply_add: float) -> str:
 
 HEAD = """# Performance
 
-Written by `docs/make_performance.py` from what `bash benchmarks/run.sh --peers` measured in one run. Times are the minimum CPU
-times of several repetitions. No test depends on them.
+*Reference.* `docs/make_performance.py` writes this page from one run of `bash benchmarks/run.sh --peers`. Times are the minimum CPU
+times of several repetitions.
 """
 QUICK = "This was a run with `--quick`: the large sizes are missing."
 SKIPPED = "The greatest sizes, of 10⁶ unknowns, were left out of this run by `--skip`."
