@@ -222,13 +222,13 @@ def pictures(program):
 TEXT = """# The paper and its numbers
 
 *Explanation.* C. A. C. Selke and N. Kikuchi, *Local unilateral contact problems in beams using a higher order theory*,
-beside the results of `trace-path`. `docs/make_paper.py` writes this page; do not edit it by hand.
+beside the results of `trace-path`. `docs/make_paper.py` writes this page.
 
 | columns | are |
 | --- | --- |
 | *printed* | the paper's tables |
 | *incremental* | the paper's scheme: `path.method = "incremental"`, `contact.method = "penalty"` ([theory.md](theory.md), sections 7.4 and 10) |
-| *converged* | stable points of equilibrium paths with exact contact, the first one if a path has several at a load |
+| *converged* | stable points of equilibrium paths with exact contact, the first at a load |
 
 *Classic* is the paper's name for Euler–Bernoulli beams: 80 elements with moving contact points.
 Essenburg's theory has 160 quadratic elements.
@@ -260,16 +260,14 @@ point along the axis.
 
 - *First contact* is printed as 0.4480 (classic) and 0.4493 (Essenburg), the values of the linear theories, 8 EI d/L² and
   8 EI d/(L² − ν h²). With large rotations they are 0.448961 and 0.450377.
-  A code that follows these is still free at the paper's 0.4485 and 0.4495.
 - *Free rows, Essenburg* (0.4 to 0.4485): linear elements with full integration, 40 on the half, give the printed values,
-  −0.07066, −0.07902, −0.07919. They lock; one point along the axis avoids that.
-  With them, contact would begin at 0.453, not between 0.4485 and 0.4495 as printed.
+  −0.07066, −0.07902, −0.07919. They lock, and would have first contact at 0.453; one point along the axis avoids that.
 - *Separation* is printed at 3.4874. The five fields of (15), used consistently, give 3.9007 (linear theory) and 3.8275 (large
   rotations and a true end moment).
-- *After separation* the printed lift (0.0002 to 0.0097) is 50 to 160 times the converged one (2·10⁻⁵ to 2·10⁻⁴).
-  Only very coarse meshes give it (below). No single mesh gives both this and the free rows.
-- *Above 7 kN cm* the Essenburg beam has no converged state: its outer fibre approaches the stretch 1/√3 at which St
-  Venant–Kirchhoff's law loses its stiffness. The incremental law, with C constant in the current configuration, continues.
+- *After separation* the printed lift (0.0002 to 0.0097) is 50 to 160 times the converged one.
+  Only very coarse meshes give it (below); none gives both this and the free rows.
+- *Above 7 kN cm* the Essenburg beam has no converged state: its outer fibre approaches 1/√3 of its length. There
+  St Venant–Kirchhoff's law loses its stiffness; the incremental law continues.
 
 The incremental scheme on coarse meshes, Essenburg's theory, linear elements, {coarse} elements on the whole beam:
 
@@ -289,12 +287,9 @@ column does not snap. Incremental: increments of {step2}, springs of {penalty2} 
 - *Printed references:* Euler's load 0.4318 is π² EI/L²; it is 0.432687 if extensible, P (1 − P/EA) = π² EI/L².
   Link's snap load 6.9087 is 7.003081 for the perfect extensible column, and of order one in the mesh with contact at nodes.
 - *Essenburg's theory* does not delay the snap. The middle separates near P = 2.44, and the column snaps at a smooth limit
-  point, 6.2195 (6.2777 if perfect), before the classic one. Above 9.9955 kN its state on the lower wall has no continuation.
-- *The free rows* 0.415 and 0.427 belong to no common imperfection on an equilibrium path.
-  Near the critical load, increments lag, which lowers the second row further.
-- *The rows 7.0 to 7.5* of the classic theory lie on no equilibrium path of the elastica.
-- The row P = 0 with 0.0302 matches nothing.
-- With the half sine alone, the classic column's contact zone has pressure and does not snap.
+  point, 6.2195 (6.2777 if perfect), before the classic one. Above 9.9955 kN it has no state on the lower wall.
+- *The free rows* 0.415 and 0.427 belong to no common imperfection on an equilibrium path. Near the critical load, increments lag.
+- *The rows 7.0 to 7.5* (classic) and P = 0 with 0.0302 lie on no equilibrium path.
 
 ### Does the incremental scheme explain the printed snap at 7.00 to 7.15?
 
@@ -316,11 +311,10 @@ SNAP_TEXT = """For Essenburg's theory it does. On meshes that resolve the contac
 | classic | {classic_least} and {classic_greatest} | 6.8632 |
 | Essenburg | {essenburg_least} and {essenburg_greatest}, mostly near 7.15, as in Table 2 | 6.2195 |
 
-The difference is the material. With C constant in each current configuration, the outer fibres of a strongly bent column stay
-stiffer than with St Venant–Kirchhoff's law, which softens in compression.
-So 7.10 to 7.15 belongs to the incremental law, not to the kinematics (15).
-Iterated to equilibrium with exact contact, that law has stable states on the wall up to 7.0 kN; increments go beyond.
-On coarser meshes or with softer springs the load is accidental: a few nodes hold or release the middle."""
+The difference is the material. With C constant in each current configuration, outer fibres in compression stay stiffer than with
+St Venant–Kirchhoff's law. So 7.10 to 7.15 belongs to the incremental law, not to the kinematics (15).
+Iterated to equilibrium, that law has stable states on the wall up to 7.0 kN.
+On coarser meshes or with softer springs the load is accidental."""
 
 
 def snap_load(rows):
