@@ -250,10 +250,9 @@ TEST(DeckReader, UprightWallsAreToldOnceWithTheOutlineThatTheyAre) {
                            "side = \"above\"\nprofile = { type = \"vertical\", x = 2.0 }\n",
                            "side = \"above\"\nprofile = { type = \"line\", z = 0.0, slope = inf }\n"}) {
     const std::string said = said_of_wall(keys);
-    EXPECT_NE(
-        said.find("a profile z = ψ(x) with a side above or below cannot be vertical; give the wall, in place of "
-                  "profile and side, outline = { type = \"half-plane\""),
-        std::string::npos)
+    EXPECT_NE(said.find("a profile z = ψ(x) with a side above or below cannot be vertical; give the wall, in place of "
+                        "profile and side, outline = { type = \"half-plane\""),
+              std::string::npos)
         << said;
   }
 }
