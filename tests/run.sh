@@ -37,4 +37,5 @@ if [[ $folder == build/sanitize ]]; then
 fi
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=$leaks}
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
-exec ctest --test-dir "$folder" --output-on-failure -j2 "${suites[@]}" "$@"
+# Three at a time on two cores: the browser and the killed programs wait more than they work.
+exec ctest --test-dir "$folder" --output-on-failure -j3 "${suites[@]}" "$@"
