@@ -92,12 +92,10 @@ std::optional<FreeEnd> touched_clamp(const SlidingSetting& setting, const Slidin
 std::vector<Transition> clamps_are_left(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
   const Clamps clamps = reached<ClampBound>(setting, at, arrival);
   const double length = 2.0 * shortest_span(setting.body, clamps.front()->strand());
-  std::vector<Transition> transitions;
-  for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
-    transitions.push_back(with_parts(setting, at, clamps, factor * length));
-  transitions.push_back(unsupported(
-      "a member comes into contact with a wall from its fixed end on, but no equilibrium with that contact was found"));
-  return transitions;
+  return {
+      with_parts(setting, at, clamps, length),
+      unsupported("a member comes into contact with a wall from its fixed end on, but no equilibrium with that contact "
+                  "was found")};
 }
 
 std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, const SlidingState& at,
