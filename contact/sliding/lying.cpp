@@ -176,7 +176,7 @@ std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingSt
   if (!obstacle) return {none};
   const double L = setting.body.length(strand);
   std::vector<Transition> transitions;
-  for (const double factor : {2.0, 8.0, 32.0}) {
+  for (const double factor : {2.0, 8.0}) {
     const double length = factor * shortest_span(setting.body, strand);
     if (length > 0.5 * L / double(ends.size())) break;
     LayoutEdit edit = edit_of(setting.body, at);
