@@ -281,8 +281,7 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
     for (const std::vector<Tail>& of_tip : ways) tails.push_back(of_tip[std::min(way, of_tip.size() - 1)]);
     // The gap below an arch grows with the fifth power of its length, and the angle at its ends with the fourth.
     const bool arches = std::find(tails.begin(), tails.end(), Tail::arch) != tails.end();
-    for (const double factor : {arches ? 8.0 : 1.0, arches ? 32.0 : 4.0})
-      transitions.push_back(with_points_inside(setting, at, tips, tails, factor * length));
+    transitions.push_back(with_points_inside(setting, at, tips, tails, arches ? 8.0 * length : length));
   }
   transitions.push_back(none);
   return transitions;
@@ -341,7 +340,7 @@ std::vector<Transition> peel_off_from_tips(const SlidingSetting& setting, const 
   const Transition none = unsupported(
       "a contact zone up to the free end of its member peels off from there, but no such equilibrium was found");
   std::vector<Transition> transitions;
-  for (const double factor : {2.0, 8.0, 32.0, 128.0}) {
+  for (const double factor : {2.0, 8.0, 32.0}) {
     const double length = factor * shortest_tail(setting.body, tips.front().strand);
     const auto has_room = [&](const StrandEnd& tip) {
       const auto [from, to] = at.layout.ends(setting.body, at.layout.segment_at_end(tip.strand, tip.last), at.now.s);
