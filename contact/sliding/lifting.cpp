@@ -154,9 +154,8 @@ std::optional<Transition> lifted(const SlidingSetting& setting, const SlidingSta
 // The lengths in which a free span inside a part is tried, from the shortest.
 std::vector<double> lengths_inside(const SlidingBody& body, Index strand, bool on_straight) {
   const double shortest = shortest_span(body, strand);
-  if (!on_straight) return {2.0 * shortest, 4.0 * shortest, 8.0 * shortest, 16.0 * shortest, 32.0 * shortest};
-  const double least = std::max(1.25 * shortest_gap_on_straight(body, strand), 8.0 * shortest);
-  return {least, 2.0 * least, 4.0 * least};
+  if (!on_straight) return {2.0 * shortest, 8.0 * shortest};
+  return {std::max(1.25 * shortest_gap_on_straight(body, strand), 8.0 * shortest)};
 }
 
 Transition nothing_lifted() {
@@ -287,9 +286,8 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
   if (at_ends_on_straight) {
     const HeldAxis held = held_axis(setting, at, part);
     const double sure = shortest_sure_arch(setting, held, lifts.front().place - held.s);
-    for (const double factor : {2.0, 4.0, 8.0, 16.0, 1.0, 0.5})
+    for (const double factor : {2.0, 4.0, 1.0, 0.5})
       if (factor * sure > shortest) try_length(factor * sure, sure);
-    try_length(2.0 * shortest, sure);
   } else {
     for (const double length : lengths_inside(setting.body, part.strand, lifts.front().on_straight))
       try_length(length, 0.0);
