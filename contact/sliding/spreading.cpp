@@ -282,49 +282,33 @@ double first_length(const SlidingSetting& setting, const SlidingState& at, const
 }
 
 // Where the wall is straight and the body lies on it by itself, the part between is flat; else pressure holds it, or it
-// arches off the wall. On a curved wall the axial force, and with it the pressure, may grow with the part: it is then
-// begun longer. On straight walls little but its length may resist, and it is begun as short as a span may be. Shorter
-// ones are tried before longer ones, half pressed ones included unless the pressure changes its sign at once: far from
-// the change a longer one may be on a part of the path that is still to come, so that it must hold at a quarter of its
-// length, too; of much shorter ones round-off hides the pressure.
+// arches off the wall. Half pressed ones are begun longer, and come first only where the pressure changes its sign at
+// once: far from the change a longer one may be on a part of the path that is still to come. Last comes a shorter one.
 std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
-  constexpr double shorter = 0.6, sure = 0.25;
+  constexpr double shorter = 0.6;
   const double length = first_length(setting, at, points);
-  const auto spread_to = [&](Span between, double factor) {
-    return spread(setting, at, points, between, factor * length);
-  };
   const auto is_all = [&](const auto& holds) { return std::all_of(points.begin(), points.end(), holds); };
   const auto lifts_off_straight = [&](std::size_t k) {
     return holding_pressure(setting, at, k) < 0.0 && obstacle_curvature(setting, at, k) == 0.0;
   };
   std::vector<Transition> transitions;
-  const auto try_half_pressed = [&](double factor) {
-    if (auto transition = spread_half_pressed(setting, at, points, factor * length))
-      transitions.push_back(std::move(*transition));
+  const auto try_half_pressed = [&] {
+    for (const double factor : {2.0, 4.0})
+      if (auto transition = spread_half_pressed(setting, at, points, factor * length))
+        transitions.push_back(std::move(*transition));
   };
-  constexpr std::array factors{1.0, 2.0, 4.0, 8.0, 16.0};
+  const auto spread_to = [&](Span between, double by) {
+    transitions.push_back(spread(setting, at, points, between, by));
+  };
   const bool changes_at_once = is_all([&](std::size_t k) { return pressure_changes_sign(setting, at, k, length); });
-  if (changes_at_once) std::for_each(factors.begin(), factors.end(), try_half_pressed);
   const bool all_flat = is_all([&](std::size_t k) { return lies_by_itself(setting, at, k); });
   const bool all_lift_off = is_all(lifts_off_straight);
-  for (const double factor : factors) {
-    if (!changes_at_once) try_half_pressed(factor);
-    const bool shortest = factor == 1.0;
-    if (all_flat && shortest) {
-      transitions.push_back(spread_to(Span::flat, 1.0));
-    } else if (all_lift_off && shortest) {
-      transitions.push_back(spread_to(Span::free, 1.0));
-      transitions.push_back(spread_to(Span::pressed, 1.0));
-    } else if (!all_flat && !all_lift_off) {
-      transitions.push_back(spread_to(Span::pressed, factor));
-      if (!shortest) transitions.back().least = std::max(1.0, sure * factor) * length;
-    }
-  }
-  if (!all_flat && !all_lift_off) {
-    transitions.push_back(spread_to(Span::free, 1.0));
-    transitions.push_back(spread_to(Span::pressed, shorter));
-    transitions.push_back(spread_to(Span::free, shorter));
-  }
+  if (changes_at_once) try_half_pressed();
+  spread_to(all_flat ? Span::flat : all_lift_off ? Span::free : Span::pressed, length);
+  if (!changes_at_once) try_half_pressed();
+  if (all_flat || all_lift_off) return transitions;
+  spread_to(Span::free, length);
+  spread_to(Span::pressed, shorter * length);
   return transitions;
 }
 
