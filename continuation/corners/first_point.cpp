@@ -366,7 +366,6 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
     return std::optional<Entered>();
   };
   for (const Effort effort : {Effort::usual, Effort::patient}) {
-    std::optional<Entered> back;
     for (const Transition& transition : transitions) {
       if (!leads_on(transition.change)) break;
       auto at = enter(tools, transition, from, lambda_scale, effort);
@@ -391,9 +390,7 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
         continue;
       }
       if (!lies_back(transition, from, entered.at)) return entered;
-      if (!back) back = std::move(entered);
     }
-    if (back) return back;
     if (effort == Effort::patient) break;
     for (const double part : {1.0, 0.5, 0.25})
       for (const Transition& transition : transitions) {

@@ -48,10 +48,10 @@ bool holds_at(const TraceTools& tools, const PathPoint& at);
 /// beside: what round-off makes of the forces, and with them of the quantity. 0 of other changes.
 double scatter_of(TraceTools& tools, const Entered& entered, double lambda_scale);
 
-/// The first of the transitions behind which a point is found, and better one that does not lie back. One that is not
-/// found with its length is entered early before those that come after it: what begins at the corner comes before what
-/// is farther off. Where none is found, they are entered with parts of their lengths; then all are tried again with
-/// patience. Last comes what is not sure to hold ahead, or does not hold between there and the bound, or has a count
+/// The first of the transitions behind which a point is found that does not lie back. One that is not found with its
+/// length is entered early before those that come after it: what begins at the corner comes before what is farther off.
+/// Where none is found, they are entered with parts of their lengths; then all are tried again with patience. Last
+/// comes what is not sure to hold ahead, or does not hold between there and the bound, or has a count
 /// against which λ does not turn: with its length there may be a second equilibrium behind the next fold, from which
 /// the path would come back; and at a pitchfork in the corner the count is right.
 std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
