@@ -12,7 +12,6 @@ namespace arcwall {
 namespace {
 
 constexpr int max_landings = 100;  // guards that turn out to come before the one landed on
-constexpr double together = 1e3;   // guard tolerances within which guards that are landed on in turn are one change
 
 struct GuardCrossing {
   Index guard;
@@ -142,9 +141,6 @@ LandedStep land_on_first_guard(TraceTools& tools, const StepOrigin& origin, Step
     if (!dips(end)) return {.end = std::move(end)};
     crossing = crossing_before(end);
   }
-  // Contacts that should vanish together miss each other by round-off, more so where a mode is almost neutral: then
-  // none of the landings leaves all guards fulfilled to the last digit, and the best of them is the change.
-  std::optional<StepEnd> nearly;
   CorrectorStatus failure = CorrectorStatus::converged;
   std::string where;
   for (int round = 0; round < max_landings && crossing; ++round) {
@@ -155,14 +151,11 @@ LandedStep land_on_first_guard(TraceTools& tools, const StepOrigin& origin, Step
       break;
     }
     end = std::move(*landed.end);
-    const double slack = end.landing->slack;
     if (end.landing->singular) return {.end = std::move(end)};
-    if (slack <= tolerance && !dips(end)) return {.end = std::move(end)};
-    if (end.landing && slack <= together * tolerance && (!nearly || slack < nearly->landing->slack)) nearly = end;
+    if (end.landing->slack <= tolerance && !dips(end)) return {.end = std::move(end)};
     crossing = crossing_before(end);
-    if (nearly && round >= 3) break;
   }
-  return {.end = std::move(nearly), .failure = failure, .where = std::move(where)};
+  return {.end = std::nullopt, .failure = failure, .where = std::move(where)};
 }
 
 }  // namespace arcwall
