@@ -19,8 +19,8 @@ struct Place {
 };
 
 // One side of a pitchfork in a corner. Towards the corner the mode says ever more of the forces at the ends of the part
-// that has no length there, and of how far that slides; along the branch forces hardly change, and the part slides
-// less. So guesses move positions by the mode, leave the forces, and try several parts of the sliding.
+// that has no length there; along the branch forces hardly change. So guesses move positions by the mode and leave the
+// forces.
 class SideOfCorner {
  public:
   SideOfCorner(const System& system, Corrector& corrector, const Metric& metric, const BranchPoint& point, int sign,
@@ -33,24 +33,21 @@ class SideOfCorner {
         guards_there_(system.guards(point.state)),
         guard_tolerance_(guard_tolerance) {
     corrector_.inspect(corner_, metric_, point.along);
-    of_K_ = corrector_.factorized().equations().K.cols();
+    const Index of_K = corrector_.factorized().equations().K.cols();
     const Index forces = system.multiplier_count(corner_.active_set);
-    mode_.dx.segment(of_K_ - forces, forces).setZero();
+    mode_.dx.segment(of_K - forces, forces).setZero();
   }
 
   // An equilibrium of the branch at some distance from the corner, `distance` or a part of it; empty if there is none.
   std::optional<Place> begin(const double distance) {
     constexpr int most_tried = 12;
     double d = distance;
-    for (int tried = 0; tried < most_tried; ++tried, d *= 0.5)
-      for (const double slid : {1.0, 0.5, 0.25}) {
-        Direction guess = mode_;
-        guess.dx.tail(guess.dx.size() - of_K_) *= slid;
-        const PlaneConstraint plane(metric_, corner_, mode_, d);
-        CorrectorResult at = corrector_.correct_patiently(moved(corner_, guess, d), plane, metric_, mode_, d);
-        if (at.converged() && metric_.distance(at.state, corner_) <= 2.0 * distance && may_be_passed(at.state))
-          return place(std::move(at), d);
-      }
+    for (int tried = 0; tried < most_tried; ++tried, d *= 0.5) {
+      const PlaneConstraint plane(metric_, corner_, mode_, d);
+      CorrectorResult at = corrector_.correct_patiently(moved(corner_, mode_, d), plane, metric_, mode_, d);
+      if (at.converged() && metric_.distance(at.state, corner_) <= 2.0 * distance && may_be_passed(at.state))
+        return place(std::move(at), d);
+    }
     return std::nullopt;
   }
 
@@ -99,7 +96,6 @@ class SideOfCorner {
   const State& corner_;
   Direction mode_;
   Vector guards_there_;
-  Index of_K_ = 0;
   double guard_tolerance_;
 };
 
