@@ -216,7 +216,6 @@ LocatedEvent locate(TraceTools& tools, const StepOrigin& origin, const EventPlac
     const ValueConstraint constraint(*target.quantity, target.value);
     const Segment segment(origin.metric, origin.point(), to);
     CorrectedPoint at = correct_onto(tools, origin, constraint, segment, place.t);
-    if (!at.point) at = correct_patiently_onto(tools, origin, constraint, segment, place.t);
     return {.place = place, .point = std::move(at.point), .failure = at.status};
   }
   if (tools.options.events == EventSearch::detect) {

@@ -58,14 +58,6 @@ CorrectedPoint correct_onto(TraceTools& tools, const StepOrigin& origin, const P
                                              sure_distance(segment, distance), wanted));
 }
 
-CorrectedPoint correct_patiently_onto(TraceTools& tools, const StepOrigin& origin, const PathConstraint& constraint,
-                                      const Segment& segment, double t) {
-  const double distance = sure_distance(segment, segment.length() * std::min(t, 1.0 - t));
-  return inside_step(
-      tools, origin, segment,
-      tools.corrector.correct_patiently(segment.at(t), constraint, origin.metric, origin.point().tangent, distance));
-}
-
 void find_pairs(TraceTools& tools, const Metric& metric, PathPoint& at) {
   CorrectorResult seen = tools.corrector.find_pairs(at.state, metric);
   at.nearest = std::move(seen.nearest);

@@ -26,10 +26,6 @@ CorrectedPoint correct_onto(TraceTools& tools, const StepOrigin& origin, const P
 CorrectedPoint correct_onto(TraceTools& tools, const StepOrigin& origin, const PathConstraint& constraint,
                             const Segment& segment, State guess, double distance, Wanted wanted);
 
-/// The same with patience, for where a span has just begun: there round-off leaves Newton's last corrections.
-CorrectedPoint correct_patiently_onto(TraceTools& tools, const StepOrigin& origin, const PathConstraint& constraint,
-                                      const Segment& segment, double t);
-
 /// Adds the eigenpairs nearest zero and their count to a point that was found without them.
 void find_pairs(TraceTools& tools, const Metric& metric, PathPoint& at);
 
