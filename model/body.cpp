@@ -62,10 +62,10 @@ class FixedBody final : public Body {
   }
   std::shared_ptr<const Observable> gap(std::size_t member, std::size_t node,
                                         const FacedObstacle& obstacle) const override;
-  std::shared_ptr<const Observable> greatest(std::size_t member, SectionQuantity quantity, MemberGreatest::What what,
-                                             double negligible) const override {
+  std::shared_ptr<const Observable> greatest(std::size_t member, std::vector<SectionQuantity> quantities,
+                                             MemberGreatest::What what, double negligible) const override {
     if (increments_ != nullptr) return nullptr;
-    return std::make_shared<MemberGreatest>(std::make_shared<TiedElements>(tied(member)), std::move(quantity), what,
+    return std::make_shared<MemberGreatest>(std::make_shared<TiedElements>(tied(member)), std::move(quantities), what,
                                             negligible);
   }
   std::vector<ShapePoint> shape(std::size_t member, const State& state) const override;
@@ -123,10 +123,10 @@ class SlidingMeshBody final : public Body {
     const double fraction = structure_.members()[member].fraction(node);
     return std::make_shared<StrandGap>(sliding_, sliding_.find(name(member), fraction), obstacle);
   }
-  std::shared_ptr<const Observable> greatest(std::size_t member, SectionQuantity quantity, MemberGreatest::What what,
-                                             double negligible) const override {
+  std::shared_ptr<const Observable> greatest(std::size_t member, std::vector<SectionQuantity> quantities,
+                                             MemberGreatest::What what, double negligible) const override {
     return std::make_shared<MemberGreatest>(std::make_shared<SlidingElements>(sliding_, name(member)),
-                                            std::move(quantity), what, negligible);
+                                            std::move(quantities), what, negligible);
   }
   std::vector<ShapePoint> shape(std::size_t member, const State& state) const override;
 

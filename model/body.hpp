@@ -43,7 +43,7 @@ class Body {
                                                 const FacedObstacle& obstacle) const = 0;
 
   /// The greatest absolute value along a member of what its sections carry, or its place; null of load increments.
-  virtual std::shared_ptr<const Observable> greatest(std::size_t member, SectionQuantity quantity,
+  virtual std::shared_ptr<const Observable> greatest(std::size_t member, std::vector<SectionQuantity> quantities,
                                                      MemberGreatest::What what, double negligible) const = 0;
 
   /// A member from end to end: at fixed fractions, each node of meshes that are not too fine among them, and at

@@ -51,6 +51,7 @@ std::string unit_of(deck::Component component, const deck::Units& units) {
     case deck::Component::rotation:
       return "rad";
     case deck::Component::thickness:
+    case deck::Component::utilisation:
       return "-";
     case deck::Component::reaction_x:
     case deck::Component::reaction_z:
@@ -62,6 +63,8 @@ std::string unit_of(deck::Component component, const deck::Units& units) {
     case deck::Component::moment:
     case deck::Component::max_moment:
       return unit_text(deck::unit::moment, units);
+    case deck::Component::max_stress:
+      return unit_text(deck::unit::stress, units);
     case deck::Component::greatest_pressure:
       return unit_text(deck::unit::line_load, units);
     case deck::Component::x:
@@ -200,22 +203,68 @@ SectionQuantity pressure_of(const deck::Foundation& foundation) {
   };
 }
 
-// The member and the quantity of which a monitor shows the greatest; empty of one that shows something else.
-std::optional<std::pair<std::string, SectionQuantity>> along_member(const deck::Deck& deck,
-                                                                    const deck::Monitor& monitor) {
-  if (monitor.component == deck::Component::max_moment) return std::pair(monitor.member, SectionQuantity(moment_at));
-  if (monitor.component != deck::Component::greatest_pressure) return std::nullopt;
-  const auto& foundation = std::get<deck::Foundation>(deck::find(deck.springs, monitor.spring)->kind);
-  return std::pair(foundation.member, pressure_of(foundation));
+// A member and the quantities of which a monitor shows the greatest.
+struct AlongMember {
+  std::string member{};
+  std::vector<SectionQuantity> quantities{};
+  double negligible = 0.0;
+};
+
+// The stresses N/A ± M h/2I in both outer fibres, over what a stress of 1 counts.
+AlongMember stresses_in(const deck::Deck& deck, const Measured& from, const deck::Member& member, double unit) {
+  const deck::SectionProperties section = properties(*deck::find(deck.sections, member.section));
+  const double by_force = 1.0 / (section.A * unit), by_moment = 0.5 * section.height.value_or(0.0) / (section.I * unit);
+  const double force = from.structure.force_roundoff(), moment = force * from.structure.length_scale();
+  AlongMember along{.member = member.name, .negligible = by_force * force + by_moment * moment};
+  if (member.theory == Theory::truss) {
+    along.quantities.emplace_back([=](const MemberStretch& at, double xi) { return by_force * at.axial_force(xi); });
+    return along;
+  }
+  for (const double fibre : {by_moment, -by_moment})
+    along.quantities.emplace_back(
+        [=](const MemberStretch& at, double xi) { return by_force * at.axial_force(xi) + fibre * at.moment(xi); });
+  return along;
 }
 
+// Those of a monitor that shows what is greatest.
+std::vector<AlongMember> along_members(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor) {
+  if (monitor.component == deck::Component::max_moment)
+    return {{.member = monitor.member,
+             .quantities = {moment_at},
+             .negligible = from.structure.force_roundoff() * from.structure.length_scale()}};
+  if (monitor.component == deck::Component::greatest_pressure) {
+    const auto& foundation = std::get<deck::Foundation>(deck::find(deck.springs, monitor.spring)->kind);
+    return {{.member = foundation.member, .quantities = {pressure_of(foundation)}}};
+  }
+  std::vector<AlongMember> members;
+  for (const deck::Member& member : deck.members) {
+    if (!monitor.member.empty() && member.name != monitor.member) continue;
+    const deck::Material& material = *deck::find(deck.materials, member.material);
+    const bool stress = monitor.component == deck::Component::max_stress;
+    members.push_back(stresses_in(deck, from, member, stress ? 1.0 : *material.allowable));
+  }
+  return members;
+}
+
+// Its value, its place, a fraction of its member, or that member's number. Null of load increments.
+enum class OfGreatest { value, place, member };
+
 std::shared_ptr<const Observable> greatest(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
-                                           MemberGreatest::What what) {
-  auto [member, quantity] = *along_member(deck, monitor);
-  const double negligible = monitor.component == deck::Component::max_moment
-                                ? from.structure.force_roundoff() * from.structure.length_scale()
-                                : 0.0;
-  return from.body.greatest(member_index(from, member), std::move(quantity), what, negligible);
+                                           OfGreatest what) {
+  std::vector<std::shared_ptr<const Observable>> values, shown;
+  for (const AlongMember& along : along_members(deck, from, monitor)) {
+    const std::size_t member = member_index(from, along.member);
+    const auto of = [&](MemberGreatest::What part) {
+      return from.body.greatest(member, along.quantities, part, along.negligible);
+    };
+    values.push_back(of(MemberGreatest::What::value));
+    if (!values.back()) return nullptr;
+    shown.push_back(what == OfGreatest::value   ? values.back()
+                    : what == OfGreatest::place ? of(MemberGreatest::What::place)
+                                                : std::make_shared<ConstantValue>(double(member)));
+  }
+  if (values.size() == 1) return shown.front();
+  return std::make_shared<GreatestOfMembers>(std::move(values), std::move(shown));
 }
 
 // --- the force of a spring ------------------------------------------------------------------------------------------
@@ -276,7 +325,7 @@ std::shared_ptr<const Observable> spring_force(const deck::Deck& deck, const Mea
 // What a monitor shows, without its sign; null, with or without a problem of its own, if it has nothing to show.
 std::shared_ptr<const Observable> shown_by(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
                                            DeckProblems& problems) {
-  if (along_member(deck, monitor)) return greatest(deck, from, monitor, MemberGreatest::What::value);
+  if (is_greatest(monitor.component)) return greatest(deck, from, monitor, OfGreatest::value);
   switch (monitor.of()) {
     case deck::Monitored::wall:
       return wall_force(deck, from, monitor);
@@ -286,6 +335,7 @@ std::shared_ptr<const Observable> shown_by(const deck::Deck& deck, const Measure
       return spring_force(deck, from, monitor);
     case deck::Monitored::place:
     case deck::Monitored::member:
+    case deck::Monitored::structure:
       break;
   }
   const bool is_there = monitor.at.fraction || from.places.joints.contains(monitor.at.name);
@@ -294,19 +344,24 @@ std::shared_ptr<const Observable> shown_by(const deck::Deck& deck, const Measure
 
 std::string shown_name(const deck::Monitor& monitor) {
   if (!monitor.member.empty()) return monitor.member;
+  if (monitor.of() == deck::Monitored::structure) return "structure";
   return monitor.spring.empty() ? to_text(monitor.at) : monitor.spring;
 }
 
-// Where the greatest along a member is: NAME-place, a fraction.
+// Where the greatest is: NAME-place, a fraction of the member, and of all members NAME-member, its number.
 void add_place(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
                std::vector<MonitorColumn>& columns) {
-  std::string name = monitor.name + "-place";
-  while (deck::find(deck.monitors, name) != nullptr) name += "-";
-  columns.push_back({.name = std::move(name),
-                     .unit = "-",
-                     .component = monitor.component,
-                     .quantity = greatest(deck, from, monitor, MemberGreatest::What::place),
-                     .is_place = true});
+  const auto add = [&](const char* ending, OfGreatest what) {
+    std::string name = monitor.name + ending;
+    while (deck::find(deck.monitors, name) != nullptr) name += "-";
+    columns.push_back({.name = std::move(name),
+                       .unit = "-",
+                       .component = monitor.component,
+                       .quantity = greatest(deck, from, monitor, what),
+                       .is_place = true});
+  };
+  add("-place", OfGreatest::place);
+  if (monitor.of() == deck::Monitored::structure) add("-member", OfGreatest::member);
 }
 
 // A column for each direction that is moved and has no monitor of its reaction: `reaction-x-B`.
@@ -358,6 +413,8 @@ Watch::Kind kind_of(const MonitorColumn& column, const deck::Deck& deck) {
     case deck::Component::reaction_moment:
     case deck::Component::axial_force:
     case deck::Component::max_moment:
+    case deck::Component::max_stress:
+    case deck::Component::utilisation:
     case deck::Component::greatest_pressure:
       return Watch::Kind::inner_force;
   }
@@ -376,8 +433,7 @@ std::shared_ptr<const Observable> reaction_of(const Measured& from, Index dof) {
 }
 
 bool is_of_section_forces(deck::Component component) {
-  return component == deck::Component::axial_force || component == deck::Component::moment ||
-         component == deck::Component::max_moment || component == deck::Component::greatest_pressure;
+  return component == deck::Component::axial_force || component == deck::Component::moment || is_greatest(component);
 }
 
 std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& from, DeckProblems& problems) {
@@ -407,7 +463,7 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measure
                        .component = monitor.component,
                        .quantity = std::move(quantity),
                        .raw = raw});
-    if (along_member(deck, monitor)) add_place(deck, from, monitor, columns);
+    if (is_greatest(monitor.component)) add_place(deck, from, monitor, columns);
   }
   add_reactions_of_movements(deck, from, columns);
   return columns;

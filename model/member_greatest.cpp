@@ -11,6 +11,7 @@ namespace arcwall {
 namespace {
 
 constexpr double step_of_lambda = 1e-6;
+constexpr double exceeds = 1e-10;
 
 // The quartic through the values at five places of equal spacing. Moments along a stretch are one, since its axis is
 // cubic and its load constant.
@@ -71,23 +72,25 @@ double fraction_at(const MemberStretch& stretch, double xi) {
 }  // namespace
 
 void MemberGreatest::look_in(const MemberStretch& stretch, Found& greatest, Index element, std::size_t number) const {
-  constexpr double exceeds = 1e-10;
   const auto [from, to] = within_member(stretch);
   if (!(from < to)) return;
-  const auto f = [&](double xi) { return quantity_(stretch, xi); };
-  const auto consider = [&](double xi, Found::Kind kind) {
+  const auto consider = [&](const auto& f, std::size_t quantity, double xi, Found::Kind kind) {
     const double value = std::abs(f(xi));
     if (greatest.value >= 0.0 && !(value > greatest.value * (1.0 + exceeds))) return;
     greatest = {.value = value,
                 .fraction = fraction_at(stretch, xi),
+                .quantity = quantity,
                 .element = element,
                 .stretch = number,
                 .xi = xi,
                 .kind = kind};
   };
-  consider(from, from > 0.0 ? Found::Kind::end : Found::Kind::node);
-  for (const double xi : turns(f, from, to)) consider(xi, Found::Kind::inside);
-  consider(to, to < 1.0 ? Found::Kind::end : Found::Kind::node);
+  for (std::size_t i = 0; i < quantities_.size(); ++i) {
+    const auto f = [&](double xi) { return quantities_[i](stretch, xi); };
+    consider(f, i, from, from > 0.0 ? Found::Kind::end : Found::Kind::node);
+    for (const double xi : turns(f, from, to)) consider(f, i, xi, Found::Kind::inside);
+    consider(f, i, to, to < 1.0 ? Found::Kind::end : Found::Kind::node);
+  }
 }
 
 MemberGreatest::Found MemberGreatest::greatest(const State& state) const {
@@ -115,10 +118,11 @@ double MemberGreatest::again(const State& state, const Found& found) const {
   const MemberStretch& stretch = stretches[std::min(found.stretch, stretches.size() - 1)];  // a load may leave it
   double xi = found.xi;
   if (found.kind == Found::Kind::end) xi = (found.fraction - stretch.from) / (stretch.to - stretch.from);
-  if (what_ == What::value) return std::abs(quantity_(stretch, xi));
+  const SectionQuantity& quantity = quantities_[found.quantity];
+  if (what_ == What::value) return std::abs(quantity(stretch, xi));
   if (found.kind == Found::Kind::inside) {
     const auto [from, to] = within_member(stretch);
-    const std::vector<double> places = turns([&](double at) { return quantity_(stretch, at); }, from, to);
+    const std::vector<double> places = turns([&](double at) { return quantity(stretch, at); }, from, to);
     const auto nearer = [&](double a, double b) { return std::abs(a - found.xi) < std::abs(b - found.xi); };
     if (!places.empty()) xi = *std::min_element(places.begin(), places.end(), nearer);
   }
@@ -142,6 +146,17 @@ Row MemberGreatest::gradient(const State& state) const {
     row.dx[step.unknown] = slope(moved.x[step.unknown], step.size);
   row.dlambda = slope(moved.lambda, step_of_lambda * std::max(1.0, std::abs(state.lambda)));
   return row;
+}
+
+std::size_t GreatestOfMembers::greatest(const State& state) const {
+  std::size_t greatest = 0;
+  double most = values_.front()->value(state);
+  for (std::size_t i = 1; i < values_.size(); ++i)
+    if (const double value = values_[i]->value(state); value > most * (1.0 + exceeds)) {
+      greatest = i;
+      most = value;
+    }
+  return greatest;
 }
 
 }  // namespace arcwall

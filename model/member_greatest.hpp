@@ -31,8 +31,8 @@ class ElementsOfMember {
 /// What a section carries, at ξ ∈ [0, 1] of a stretch.
 using SectionQuantity = std::function<double(const MemberStretch& stretch, double xi)>;
 
-/// The greatest absolute value of a quantity along a whole member, between nodes too, or the fraction of the member at
-/// which it is: the first of those that have it within 10⁻¹⁰.
+/// The greatest absolute value of some quantities along a whole member, between nodes too, or the fraction of the
+/// member at which it is: the first of those that have it within 10⁻¹⁰.
 ///
 /// The value is continuous along a path, the place may jump. Gradients are central differences within the element that
 /// has it: what moves the place within it does not change the value. Of a node they are those of the element before it,
@@ -41,10 +41,10 @@ class MemberGreatest final : public Observable {
  public:
   enum class What { value, place };
 
-  /// `negligible`: up to this the quantity is round-off, and its place is 0.
-  MemberGreatest(std::shared_ptr<const ElementsOfMember> member, SectionQuantity quantity, What what,
+  /// `negligible`: up to this the quantities are round-off, and their place is 0.
+  MemberGreatest(std::shared_ptr<const ElementsOfMember> member, std::vector<SectionQuantity> quantities, What what,
                  double negligible = 0.0)
-      : member_(std::move(member)), quantity_(std::move(quantity)), what_(what), negligible_(negligible) {}
+      : member_(std::move(member)), quantities_(std::move(quantities)), what_(what), negligible_(negligible) {}
 
   double value(const State& state) const override;
   Row gradient(const State& state) const override;
@@ -53,6 +53,7 @@ class MemberGreatest final : public Observable {
   struct Found {
     double value = -1.0;  // absolute
     double fraction = 0.0;
+    std::size_t quantity = 0;
     Index element = 0;
     std::size_t stretch = 0;                                  // of the element
     double xi = 0.0;                                          // of the stretch
@@ -63,9 +64,38 @@ class MemberGreatest final : public Observable {
   double again(const State& state, const Found& found) const;
 
   std::shared_ptr<const ElementsOfMember> member_;
-  SectionQuantity quantity_;
+  std::vector<SectionQuantity> quantities_;
   What what_;
   double negligible_;
+};
+
+/// A number that no state changes.
+class ConstantValue final : public Observable {
+ public:
+  explicit ConstantValue(double value) : value_(value) {}
+  double value(const State&) const override { return value_; }
+  Row gradient(const State& state) const override { return {.dx = Vector::Zero(state.x.size()), .dlambda = 0.0}; }
+
+ private:
+  double value_;
+};
+
+/// The greatest of several members' values, or what goes with it: the number of the member that has it, the first of
+/// those within 10⁻¹⁰, or the place there.
+class GreatestOfMembers final : public Observable {
+ public:
+  /// `values`, one of each member, and `shown`, what is shown of it.
+  GreatestOfMembers(std::vector<std::shared_ptr<const Observable>> values,
+                    std::vector<std::shared_ptr<const Observable>> shown)
+      : values_(std::move(values)), shown_(std::move(shown)) {}
+
+  double value(const State& state) const override { return shown_[greatest(state)]->value(state); }
+  Row gradient(const State& state) const override { return shown_[greatest(state)]->gradient(state); }
+
+ private:
+  std::size_t greatest(const State& state) const;
+
+  std::vector<std::shared_ptr<const Observable>> values_, shown_;
 };
 
 }  // namespace arcwall

@@ -93,6 +93,10 @@ double MemberStretch::balanced_moment(double xi) const {
          cross(xi * r - now.integral_to(xi), second.force - first.force);
 }
 
+double MemberStretch::axial_force(double xi) const {
+  return ((1.0 - xi) * first.force + xi * second.force).dot(unit_tangent(now.angle(xi) - shear));
+}
+
 // What the interpolation leaves open at the second end is shared out evenly.
 double MemberStretch::moment(double xi) const {
   return balanced_moment(xi) + xi * (second.moment - balanced_moment(1.0));

@@ -70,7 +70,8 @@ struct MemberStretch {
   /// The same stretch of a member that travels the other way; for sections across the axis alone.
   MemberStretch reversed() const;
 
-  /// M at ξ, alone.
+  /// N and M at ξ, alone.
+  double axial_force(double xi) const;
   double moment(double xi) const;
 
   /// M at ξ as it follows from the first end and the forces.

@@ -136,6 +136,8 @@ std::string what_is_shown(const deck::Monitor& monitor) {
       break;
     case deck::Monitored::wall:
       return "wall " + monitor.wall;
+    case deck::Monitored::structure:
+      return "all members";
     case deck::Monitored::gap:
       return to_text(monitor.at) + " and wall " + monitor.wall;
     case deck::Monitored::member:

@@ -115,17 +115,49 @@ std::optional<double> own_value(const PointAtHand& at, const deck::Monitor& moni
   return spring_force(at.model, at.point.state, spring, direction_of(monitor.component));
 }
 
+// Section moduli by formulas of their own.
+std::vector<OuterFibres> outer_fibres(const deck::Deck& deck, const deck::Monitor& monitor) {
+  const auto modulus = [](const deck::Section& section) {
+    if (const auto* of = std::get_if<deck::Rectangle>(&section.shape)) return of->width * of->height * of->height / 6.0;
+    if (const auto* of = std::get_if<deck::Circle>(&section.shape)) return pi * std::pow(of->radius, 3) / 4.0;
+    if (const auto* of = std::get_if<deck::Tube>(&section.shape))
+      return pi * (std::pow(of->radius, 4) - std::pow(of->radius - of->thickness, 4)) / (4.0 * of->radius);
+    const auto& general = std::get<deck::General>(section.shape);
+    return general.height ? 2.0 * general.I / *general.height : infinity;
+  };
+  std::vector<OuterFibres> all;
+  for (std::size_t m = 0; m < deck.members.size(); ++m) {
+    const deck::Member& member = deck.members[m];
+    if (!monitor.member.empty() && member.name != monitor.member) continue;
+    const deck::Section& section = *deck::find(deck.sections, member.section);
+    OuterFibres fibres{.member = m, .area = properties(section).A};
+    if (member.theory != Theory::truss) fibres.modulus = modulus(section);
+    if (monitor.component == deck::Component::utilisation)
+      fibres.unit = deck::find(deck.materials, member.material)->allowable.value_or(infinity);
+    all.push_back(fibres);
+  }
+  return all;
+}
+
 void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double shown, double roundoff,
                     Findings& findings) {
   constexpr double same = 1e-9;  // of the value: that of the place that is shown, where several have nearly as much
   const Model& model = at.model;
-  const bool moment = monitor.component == deck::Component::max_moment;
-  const deck::Foundation* const foundation =
-      moment ? nullptr : &std::get<deck::Foundation>(deck::find(model.deck().springs, monitor.spring)->kind);
-  const std::size_t member = index_of_member(model, moment ? monitor.member : foundation->member);
   double most = 0.0;
-  for (const ShapePoint& point : model.body().shape(member, at.point.state))
-    most = std::max(most, moment ? std::abs(point.moment) : pressure_of(*foundation, point.displacement));
+  const auto look_along = [&](std::size_t member, const auto& quantity) {
+    for (const ShapePoint& point : model.body().shape(member, at.point.state)) most = std::max(most, quantity(point));
+  };
+  if (monitor.component == deck::Component::max_moment) {
+    look_along(index_of_member(model, monitor.member), [](const ShapePoint& point) { return std::abs(point.moment); });
+  } else if (is_stress(monitor.component)) {
+    for (const OuterFibres& fibres : outer_fibres(model.deck(), monitor))
+      look_along(fibres.member,
+                 [&](const ShapePoint& point) { return fibres.exertion(point.axial_force, point.moment); });
+  } else {
+    const auto& foundation = std::get<deck::Foundation>(deck::find(model.deck().springs, monitor.spring)->kind);
+    look_along(index_of_member(model, foundation.member),
+               [&](const ShapePoint& point) { return pressure_of(foundation, point.displacement); });
+  }
   findings.compare("maximum along a member", most - shown, same * std::abs(shown) + roundoff,
                    "monitor " + monitor.name);
 }

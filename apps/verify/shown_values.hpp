@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
+#include <vector>
 
 #include "apps/verify/point_checks.hpp"
 
@@ -10,7 +12,20 @@ namespace arcwall::verify {
 /// structure is, without the deck's sign; empty of one whose value is read off the structure itself.
 std::optional<double> own_value(const PointAtHand& at, const deck::Monitor& monitor);
 
-/// No section that a picture of the point shows carries more than the greatest moment or pressure along its member.
+/// The outer fibres of a member, as far as a monitor of stress is concerned.
+struct OuterFibres {
+  std::size_t member = 0;
+  double area = 0.0, modulus = infinity;  ///< of the section, infinite for trusses [length², length³]
+  double unit = 1.0;                      ///< the stress that counts as 1 [force/length²]
+
+  double exertion(double axial_force, double moment) const {
+    return (std::abs(axial_force) / area + std::abs(moment) / modulus) / unit;
+  }
+};
+std::vector<OuterFibres> outer_fibres(const deck::Deck& deck, const deck::Monitor& monitor);
+
+/// No section that a picture of the point shows carries more than the greatest moment, stress or pressure along its
+/// member.
 void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double shown, double roundoff,
                     Findings& findings);
 

@@ -27,28 +27,30 @@ bool is_reaction(deck::Component component) {
 }
 
 // Of forces, moments or pressures of nodes.
-double roundoff_of_force(deck::Component component, const Structure& structure) {
-  const double force = 10.0 * structure.force_roundoff();
-  if (component == deck::Component::max_moment) return force * structure.length_scale();
-  if (component == deck::Component::greatest_pressure) return force / structure.length_scale();
+double roundoff_of_force(const Model& model, const std::string& monitor, deck::Component component) {
+  const double force = 10.0 * model.structure().force_roundoff(), length = model.structure().length_scale();
+  if (component == deck::Component::max_moment) return force * length;
+  if (component == deck::Component::greatest_pressure) return force / length;
+  if (is_stress(component)) {
+    double most = 0.0;
+    for (const OuterFibres& fibres : outer_fibres(model.deck(), *deck::find(model.deck().monitors, monitor)))
+      most = std::max(most, fibres.exertion(force, force * length));
+    return most;
+  }
   return force;
-}
-
-bool is_greatest(deck::Component component) {
-  return component == deck::Component::max_moment || component == deck::Component::greatest_pressure;
 }
 
 // Monitors are differences of places, or sums of nodal forces: their round-off is that of these. Reactions of a run in
 // increments are of stresses that no state tells.
-double roundoff_of(const MonitorColumn& column, const Structure& structure) {
+double roundoff_of(const MonitorColumn& column, const Model& model) {
   // Where a quantity turns, its place is as sure as the root of its round-off; formulas of walls differ in the order of
   // their operations.
   constexpr double turn = 1e-7;
   if (column.is_place) return turn;
   if (is_reaction(column.component) || is_greatest(column.component))
-    return roundoff_of_force(column.component, structure);
+    return roundoff_of_force(model, column.name, column.component);
   constexpr double place = 1e-14, gap = 1e-12;
-  return (column.component == deck::Component::gap ? gap : place) * structure.length_scale();
+  return (column.component == deck::Component::gap ? gap : place) * model.structure().length_scale();
 }
 
 void add_monitors(const PointAtHand& at, PathExpectation& expected, Findings& findings) {
@@ -64,11 +66,11 @@ void add_monitors(const PointAtHand& at, PathExpectation& expected, Findings& fi
     if (const deck::Monitor* monitor = deck::find(model.deck().monitors, column.name)) {
       if (const auto own = own_value(at, *monitor)) value = monitor->sign * *own;
       if (is_greatest(column.component))
-        check_greatest(at, *monitor, std::abs(value), roundoff_of_force(column.component, model.structure()), findings);
+        check_greatest(at, *monitor, std::abs(value), roundoff_of_force(model, column.name, column.component),
+                       findings);
     }
     expected.monitors.push_back(value);
-    expected.allowed.push_back(std::isfinite(value) ? 1e-12 * std::abs(value) + roundoff_of(column, model.structure())
-                                                    : 0.0);
+    expected.allowed.push_back(std::isfinite(value) ? 1e-12 * std::abs(value) + roundoff_of(column, model) : 0.0);
   }
 }
 

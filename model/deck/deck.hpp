@@ -33,6 +33,7 @@ struct Material {
   double E = 0.0;                     ///< Young's modulus, > 0 [force/length²]
   std::optional<double> nu{};         ///< Poisson's ratio, in (-1, 1/2); there for every theory that needs it
   std::optional<double> expansion{};  ///< thermal expansion, there for members that are heated [1/degree]
+  std::optional<double> allowable{};  ///< allowable stress, > 0, there for members of a utilisation [force/length²]
 
   bool operator==(const Material&) const = default;
 };
@@ -297,21 +298,35 @@ enum class Component {
   force_z,
   gap,
   max_moment,
+  max_stress,
+  utilisation,
   greatest_pressure,
   thickness,
   thickness2
 };
 
+/// Whether it is the greatest that sections along members carry, whose place may jump.
+constexpr bool is_greatest(Component component) {
+  return component == Component::max_moment || component == Component::max_stress ||
+         component == Component::utilisation || component == Component::greatest_pressure;
+}
+
+/// Whether it is a stress in the outer fibres, or a part of what is allowed of one.
+constexpr bool is_stress(Component component) {
+  return component == Component::max_stress || component == Component::utilisation;
+}
+
 /// What a monitor is of.
 enum class Monitored {
   place,
-  wall,    ///< the resultant of its contact forces on the structure
-  gap,     ///< between a place and a wall
-  member,  ///< the greatest of what its sections carry
+  wall,       ///< the resultant of its contact forces on the structure
+  gap,        ///< between a place and a wall
+  member,     ///< the greatest of what its sections carry
+  structure,  ///< the same of all members
   spring
 };
 
-/// Of a place of the structure, of a wall, of both, of a member, or of a spring.
+/// Of a place of the structure, of a wall, of both, of a member, of a spring, or of the whole structure.
 struct Monitor {
   std::string name{};
   Position position{};
@@ -323,7 +338,7 @@ struct Monitor {
   Monitored of() const {
     if (!spring.empty()) return Monitored::spring;
     if (!member.empty()) return Monitored::member;
-    if (wall.empty()) return Monitored::place;
+    if (wall.empty()) return at.name.empty() ? Monitored::structure : Monitored::place;
     return at.name.empty() ? Monitored::wall : Monitored::gap;
   }
 

@@ -278,6 +278,10 @@ void check_face(Keys& keys, const Deck& deck, const Monitor& monitor) {
               "give the section a height, or monitor \"z\"");
 }
 
+constexpr const char* what_to_monitor =
+    "give `at` for a place, `wall` for the force of a wall, both for the gap between them, `member` for the maximum "
+    "moment or stress of a member, or `spring` for the force of a spring";
+
 // What has a component, and what is to be written where it stands with something else.
 struct Owner {
   const char* is;
@@ -293,6 +297,9 @@ Owner owner_of(Component component) {
       return {"a place and a wall", "give both `at` and `wall`"};
     case Component::max_moment:
       return {"a member", "write `member` instead"};
+    case Component::max_stress:
+    case Component::utilisation:
+      return {"a member or the whole structure", "write `member` instead, or leave out `at` for all members"};
     case Component::greatest_pressure:
       return {"a foundation", "write `spring` with the name of a [[spring]] that has `on`"};
     case Component::x:
@@ -337,8 +344,13 @@ bool check_owner(Keys& keys, const Monitor& monitor) {
       return component == Component::gap || refuse("a place and a wall have a gap between them, and no " + word,
                                                    "give component = \"gap\", or leave out `wall` or `at`");
     case Monitored::member:
-      return component == Component::max_moment ||
-             refuse("a member as a whole has no " + word, "give max-moment, or write `at` with a place of the member");
+      return component == Component::max_moment || is_stress(component) ||
+             refuse("a member as a whole has no " + word,
+                    "give max-moment, max-stress or utilisation, or write `at` with a place of the member");
+    case Monitored::structure:
+      if (is_stress(component)) return true;
+      keys.report("at", "the monitor has none of `at`, `wall`, `member` and `spring`", what_to_monitor);
+      return false;
     case Monitored::spring:
       return is_force(component) || component == Component::greatest_pressure ||
              refuse("a spring has no " + word, "give force-x, force-z or moment, or greatest-pressure of a foundation");
@@ -368,27 +380,46 @@ void check_spring(Keys& keys, const Deck& deck, const Monitor& monitor) {
                 "name the component of a direction in which it acts");
 }
 
+// Outer fibres of beams need a height, and a part of what is allowed what that is.
+void check_stress(Keys& keys, const Deck& deck, const Monitor& monitor) {
+  std::vector<const Member*> members, beams;
+  for (const Member& member : deck.members)
+    if (monitor.of() == Monitored::structure || member.name == monitor.member) members.push_back(&member);
+  for (const Member* member : members)
+    if (member->theory != Theory::truss) beams.push_back(member);
+  if (const Member* const without = member_without_faces(deck, beams))
+    keys.report("component",
+                "section " + without->section + " of member " + without->name +
+                    " has no height: the stress in its outer fibres is not known",
+                "add section." + without->section + ".height, twice the distance of the outer fibre from the axis");
+  if (monitor.component != Component::utilisation) return;
+  for (const Member* member : members) {
+    const Material* const material = find(deck.materials, member->material);
+    if (material == nullptr || material->allowable) continue;
+    return keys.report("component",
+                       "material " + material->name + " of member " + member->name + " has no allowable stress",
+                       "add material." + material->name + ".allowable");
+  }
+}
+
 void check_monitored(Keys& keys, const Deck& deck, const Monitor& monitor) {
   if (!check_owner(keys, monitor)) return;
   if (monitor.of() == Monitored::place) check_face(keys, deck, monitor);
   if (monitor.of() == Monitored::spring) check_spring(keys, deck, monitor);
+  if (is_stress(monitor.component)) return check_stress(keys, deck, monitor);
   const Member* member = monitor.of() == Monitored::member ? find(deck.members, monitor.member) : nullptr;
   if (member != nullptr && member->theory == Theory::truss)
     keys.report("member", "member " + member->name + " is a truss, which carries no moment", "name a beam");
 }
 
-// One of these keys, or a place and a wall.
+// One of these keys, a place and a wall, or none of a stress in the whole structure.
 bool check_what_is_monitored(Keys& keys) {
   std::vector<std::string> given;
   for (const char* key : {"at", "wall", "member", "spring"})
     if (keys.has(key)) given.emplace_back(key);
   const bool gap = given.size() == 2 && given[0] == "at" && given[1] == "wall";
-  if (given.size() == 1 || gap) return true;
-  keys.report(given.empty() ? "at" : given.back(),
-              given.empty() ? "the monitor has none of `at`, `wall`, `member` and `spring`"
-                            : "the monitor has both `" + given[0] + "` and `" + given.back() + "`",
-              "give `at` for a place, `wall` for the force of a wall, both for the gap between them, `member` for the "
-              "maximum moment of a member, or `spring` for the force of a spring");
+  if (given.size() <= 1 || gap) return true;
+  keys.report(given.back(), "the monitor has both `" + given[0] + "` and `" + given.back() + "`", what_to_monitor);
   return false;
 }
 
@@ -403,7 +434,7 @@ void monitored_keys(Keys& keys, Monitor& monitor, const Deck& deck) {
     if (shows(key, name)) right = keys.name(key, name, of, meaning) && right;
   };
   name_key("wall", monitor.wall, Named::wall, "instead of `at`: a wall (resultant force); with `at`: a wall (gap)");
-  name_key("member", monitor.member, Named::member, "instead of `at`: a member (maximum moment)");
+  name_key("member", monitor.member, Named::member, "instead of `at`: a member (maximum moment or stress)");
   name_key("spring", monitor.spring, Named::spring, "instead of `at`: a spring (its force)");
   if (keys.word("component", monitor.component, component_words, "one of the following") && right)
     check_monitored(keys, deck, monitor);

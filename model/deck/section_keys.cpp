@@ -22,6 +22,8 @@ void material_keys(Keys& keys, Material& material) {
       "Poisson's ratio, in (−1, ½); needed by the theories `\"reissner\"` and `\"essenburg\"`: G = E/(2(1 + ν))");
   keys.number(optional("expansion", "none"), material.expansion, unit::none, any_number,
               "thermal expansion, strain per degree; needed for a temperature");
+  keys.number(optional("allowable", "none"), material.allowable, unit::stress, positive,
+              "allowable stress; needed by the monitor `utilisation`");
 }
 
 void tube_keys(Keys& keys, Tube& tube) {

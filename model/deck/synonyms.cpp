@@ -12,7 +12,7 @@ namespace {
 
 using Use = Synonym::Use;
 
-constexpr std::array<Synonym, 76> all_synonyms{{
+constexpr std::array<Synonym, 80> all_synonyms{{
     {"land", "output_at", Use::read},
     {"landing", "jumps", Use::read},
     {"search_tries", "search_guesses", Use::read},
@@ -46,6 +46,10 @@ constexpr std::array<Synonym, 76> all_synonyms{{
     {"phi", "rotation"},
     {"normal-force", "axial-force"},
     {"bending-moment", "moment"},
+    {"stress", "max-stress"},
+    {"utilization", "utilisation"},
+    {"yield", "allowable"},
+    {"strength", "allowable"},
     {"upper", "above"},
     {"top", "above"},
     {"lower", "below"},
