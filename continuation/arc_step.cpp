@@ -8,6 +8,7 @@
 #include "continuation/corners/corner.hpp"
 #include "continuation/events/eigenvalue_touch.hpp"
 #include "continuation/events/step_events.hpp"
+#include "continuation/events/target_values.hpp"
 #include "continuation/events/value_before_change.hpp"
 #include "continuation/known_places.hpp"
 #include "continuation/path_tolerances.hpp"
@@ -233,7 +234,10 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
     // Behind a change of contact that was not left nothing is counted.
     if (accepted.end && passed->events.empty() && !passed->entered) end.point.count = origin.from.count_after;
   }
-  if (!accepted.end && new_contacts) accepted.end = stop_at_contacts(tools.options, end.point.state.active_set);
+  for (Event& event : value_crossings(tools, origin, end, end.point, behind))
+    accepted.arc.events.push_back(std::move(event));
+  if (!accepted.end && new_contacts)
+    accepted.end = stop_at_contacts(tools.options, origin.point().state.active_set, end.point.state.active_set);
   if (!accepted.end) accepted.end = stop_at_events(tools.options, accepted.arc.events);
   begin_next(origin, passed && passed->entered ? passed->entered->begin : end.point, smooth, accepted.leave);
   if (passed && passed->entered) accepted.leave.known_end = std::move(passed->entered->first);
@@ -252,7 +256,11 @@ Accepted accept_value_ahead(const TraceTools& tools, const TracerState& state) {
   Departure& leave = accepted.leave;
   ValuePoint value = std::move(leave.values_ahead.front());
   leave.values_ahead.erase(leave.values_ahead.begin());
+  const TargetValue& target = tools.options.target_values[value.which];
   accepted.end = bound_at(tools.options.target_values, value.which, value.at.state);
+  if (!target.event.empty())
+    accepted.arc.events.push_back(
+        value_crossing(target, value.at, state.from.count_after.unstable, state.from.count_after.unstable));
   const double arc = value.at.arc;
   leave.point = leave.values_ahead.empty() ? std::move(*leave.begin) : value.at;
   if (leave.values_ahead.empty()) leave.begin.reset();

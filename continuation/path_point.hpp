@@ -40,7 +40,8 @@ enum class EventKind {
   contact_transfers,  ///< contact moves between the end and the inside of a member, or over a joint
   limit_point,
   contact_limit_point,
-  turning_point,  ///< of a monitor
+  turning_point,   ///< of a monitor
+  value_crossing,  ///< a monitor or λ passes a value
   branch_point,
   user,  ///< of a detector that the program added
 };
@@ -95,6 +96,7 @@ struct Event {
   std::optional<Index> unstable_before{}, unstable_after{};  ///< unstable directions; empty: unknown
   std::optional<Extremum> extremum{};                        ///< of λ, at limit points
   std::vector<Index> guards{};                               ///< contacts that change
+  std::optional<double> value{};                             ///< that is passed at a value crossing
   std::optional<Continuum> continuum{};            ///< equilibrium family of which the path follows one from here on
   std::shared_ptr<const BranchPoint> branching{};  ///< of branch points; else null
 };

@@ -5,9 +5,12 @@
 
 namespace arcwall {
 
-std::optional<BranchEnd> stop_at_contacts(const TraceOptions& options, const ActiveSet& active_set) {
-  const Index closed = active_set.closed_count();
-  if (!options.stop_contacts || closed < *options.stop_contacts) return std::nullopt;
+std::optional<BranchEnd> stop_at_contacts(const TraceOptions& options, const ActiveSet& before,
+                                          const ActiveSet& active_set) {
+  if (!options.stop_contacts) return std::nullopt;
+  const Index closed = active_set.closed_count(), wanted = *options.stop_contacts;
+  const bool met = wanted > 0 ? closed >= wanted : closed == 0 && before.closed_count() > 0;
+  if (!met) return std::nullopt;
   return BranchEnd{.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
 }
 

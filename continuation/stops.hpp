@@ -7,8 +7,10 @@
 
 namespace arcwall {
 
-/// The end of a branch at the first point behind a change of contacts, if so many are closed there.
-std::optional<BranchEnd> stop_at_contacts(const TraceOptions& options, const ActiveSet& active_set);
+/// The end of a branch at the first point behind a change of contacts, if so many are closed there; if none is wanted,
+/// where the last one is gone.
+std::optional<BranchEnd> stop_at_contacts(const TraceOptions& options, const ActiveSet& before,
+                                          const ActiveSet& active_set);
 
 /// The end of a branch at a point with such events.
 std::optional<BranchEnd> stop_at_events(const TraceOptions& options, const std::vector<Event>& events);

@@ -202,6 +202,7 @@ std::optional<Arc> Tracer::next() {
 }
 
 std::optional<Arc> Tracer::begin() {
+  const ActiveSet start = state_.start.state.active_set;
   BranchBegun begun = begin_branch(*tools_, state_);
   state_.end = begun.end;
   if (begun.end) return std::nullopt;
@@ -210,7 +211,7 @@ std::optional<Arc> Tracer::begin() {
   state_.step.restart(begun.step_length);
   if (begun.visit) remember(state_.visited, std::move(*begun.visit));
   const bool contacts_change = begun.arc.events.size() > 1;
-  if (contacts_change) state_.end = stop_at_contacts(tools_->options, begun.arc.to.state.active_set);
+  if (contacts_change) state_.end = stop_at_contacts(tools_->options, start, begun.arc.to.state.active_set);
   if (!state_.end) state_.end = stop_at_events(tools_->options, begun.arc.events);
   state_.points = 1;
   state_.greatest_lambda = std::abs(begun.arc.to.state.lambda);

@@ -92,16 +92,23 @@ TraceOptions trace_options(const deck::Deck& deck, const Measured& from, const s
     const MonitorColumn* column = deck::find(monitors, name);
     return column != nullptr ? column->quantity : nullptr;
   };
-  const auto mark = [&](const std::string& name, double value, bool stops) {
+  enum class At { output, stop, event };
+  const auto mark = [&](const std::string& name, double value, At at) {
     if (auto q = quantity(name))
-      options.target_values.push_back(
-          {.quantity = std::move(q), .value = value, .stops = stops, .label = name + " = " + round_trip(value)});
+      options.target_values.push_back({.quantity = std::move(q),
+                                       .value = value,
+                                       .stops = at == At::stop,
+                                       .label = name + " = " + round_trip(value),
+                                       .event = at == At::event ? name : ""});
   };
   for (const deck::OutputValues& output : path.output_at)
-    for (const double value : output.values) mark(output.name, value, false);
+    for (const double value : output.values) mark(output.name, value, At::output);
+  for (const std::string& name : path.watch_zero) mark(name, 0.0, At::event);
+  for (const deck::OutputValues& watched : path.watch_values)
+    for (const double value : watched.values) mark(watched.name, value, At::event);
   for (const deck::StopBounds& bounds : path.stop.bounds) {
-    mark(bounds.name, bounds.low, true);
-    mark(bounds.name, bounds.high, true);
+    mark(bounds.name, bounds.low, At::stop);
+    mark(bounds.name, bounds.high, At::stop);
   }
   if (path.stop.contacts) options.stop_contacts = *path.stop.contacts;
   for (const EventKind event : path.stop.events)

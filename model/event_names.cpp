@@ -19,6 +19,7 @@ constexpr std::array event_kinds{EventKind::start,
                                  EventKind::limit_point,
                                  EventKind::contact_limit_point,
                                  EventKind::turning_point,
+                                 EventKind::value_crossing,
                                  EventKind::branch_point,
                                  EventKind::user};
 
@@ -64,6 +65,8 @@ std::string_view to_text(EventKind kind) {
       return "contact-limit-point";
     case EventKind::turning_point:
       return "turning-point";
+    case EventKind::value_crossing:
+      return "value-crossing";
     case EventKind::branch_point:
       return "branch-point";
     case EventKind::user:
@@ -161,6 +164,7 @@ bool changes_contact(EventKind kind) {
     case EventKind::limit_point:
     case EventKind::contact_limit_point:
     case EventKind::turning_point:
+    case EventKind::value_crossing:
     case EventKind::branch_point:
     case EventKind::user:
       return false;

@@ -109,7 +109,8 @@ struct RecordEvent {
   double lambda_uncertainty = 0.0;               ///< half-width in λ
   std::vector<RecordContact> contacts{};         ///< of a change of contact
   std::optional<Extremum> extremum{};            ///< of λ, at a limit point
-  std::optional<std::string> monitor{};          ///< of a turning point
+  std::optional<std::string> monitor{};          ///< of a turning point or a value crossing
+  std::optional<double> value{};                 ///< of a value crossing: the value that is passed
   std::optional<BranchEnd> branch_end{};         ///< of an end
   std::optional<Continuum> continuum{};          ///< equilibrium family of which the branch follows one from here on
   std::optional<BranchType> branch_type{};       ///< of a branch point

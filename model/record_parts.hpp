@@ -67,7 +67,7 @@ template <typename Archive>
 void parts(Archive& archive, RecordEvent& event) {
   archive(event.id, event.kind, event.branch, event.step, event.arc, event.lambda, event.monitors,
           event.unstable_before, event.unstable_after, event.unstable_load_control, event.residual,
-          event.lambda_uncertainty, event.contacts, event.extremum, event.monitor, event.branch_end, event.branch_type,
+          event.lambda_uncertainty, event.contacts, event.extremum, event.monitor, event.value, event.branch_end, event.branch_type,
           event.multiplicity, event.unconfirmed, event.mesh_artefact, event.branches, event.mode, event.sensitivity,
           event.continuum);
   keep_owned(archive, event.jump);

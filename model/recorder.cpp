@@ -143,7 +143,8 @@ RecordEvent Recorder::recorded(const Event& event, const State& at) const {
                      .unconfirmed = event.unconfirmed};
   if (const auto origin = record_.branches[branch_].origin; event.kind == EventKind::start && origin)
     record.lambda_uncertainty = record_.events[static_cast<std::size_t>(*origin)].lambda_uncertainty;
-  if (event.kind == EventKind::turning_point) record.monitor = event.label;
+  if (event.kind == EventKind::turning_point || event.kind == EventKind::value_crossing) record.monitor = event.label;
+  record.value = event.value;
   if (event.branching) {
     record.branch_type = event.branching->type;
     record.multiplicity = event.branching->multiplicity;

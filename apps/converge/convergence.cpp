@@ -60,7 +60,7 @@ std::vector<std::string> walls_of(const RecordEvent& event) {
 
 // The greatest difference of two events as a part of its range; infinite where they are of different kinds.
 double distance(const RecordEvent& a, const RecordEvent& b, const Ranges& ranges) {
-  if (a.kind != b.kind || a.monitor != b.monitor || walls_of(a) != walls_of(b)) return infinity;
+  if (a.kind != b.kind || a.monitor != b.monitor || a.value != b.value || walls_of(a) != walls_of(b)) return infinity;
   double greatest = std::abs(a.lambda - b.lambda) / ranges.lambda;
   for (std::size_t i = 0; i < a.monitors.size(); ++i)
     greatest = std::max(greatest, std::abs(a.monitors[i] - b.monitors[i]) / ranges.monitors[i]);

@@ -47,6 +47,8 @@ EventMark mark_of(EventKind kind) {
       return {.symbol = "hexagon", .outline = polygon(6, 1.0, {1.1}), .size = 1.7, .filled = !filled};
     case EventKind::turning_point:
       return {.symbol = "square", .outline = polygon(4, 0.5, {1.1}), .filled = filled};
+    case EventKind::value_crossing:
+      return {.symbol = "square", .outline = polygon(4, 0.5, {1.1}), .filled = !filled};
     case EventKind::branch_point:
       return {.symbol = "star", .outline = polygon(10, 1.0, {1.4, 0.55}), .filled = filled};
     case EventKind::user:
@@ -82,6 +84,8 @@ std::string_view meaning(EventKind kind) {
       return "λ reverses at a contact change or a kink";
     case EventKind::turning_point:
       return "a watched monitor has a maximum or minimum";
+    case EventKind::value_crossing:
+      return "a watched monitor passes a value";
     case EventKind::branch_point:
       return "bifurcation: branches intersect";
     case EventKind::user:

@@ -94,6 +94,7 @@ OrderedJson event_json(const Record& record, const RecordEvent& event) {
   if (event.continuum) json["family"] = family(*event.continuum);
   if (event.extremum) json["extremum"] = to_text(*event.extremum);
   if (event.monitor) json["monitor"] = *event.monitor;
+  if (event.value) json["value"] = number(*event.value);
   if (event.branch_type || event.kind == EventKind::limit_point) json["unconfirmed"] = event.unconfirmed;
   if (event.branch_type) {
     json["type"] = to_text(*event.branch_type);

@@ -106,6 +106,7 @@ std::string event_detail(const RecordEvent& event) {
            (event.unconfirmed ? ", unconfirmed" : "") + (event.mesh_artefact ? ", of the node contact" : "");
   if (event.unconfirmed) return "unconfirmed";
   if (event.extremum) return std::string(to_text(*event.extremum));
+  if (event.value) return *event.monitor + " = " + shown_number(*event.value, 6);
   if (event.monitor) return *event.monitor;
   if (event.continuum)
     return contacts(event.contacts) + fmt::format("; of {} lengths only the sum is determined", event.continuum->parts);

@@ -25,6 +25,7 @@ std::string name_of(const RecordEvent& event) {
   std::string name(to_text(event.kind));
   if (event.branch_end) name += " (" + std::string(to_text(event.branch_end->reason)) + ")";
   if (event.monitor) name += " of " + *event.monitor;
+  if (event.value) name += " = " + round_trip(*event.value);
   std::string list;
   for (const std::string& contact : contact_names(event)) list += (list.empty() ? " of " : ", ") + contact;
   return name + list;

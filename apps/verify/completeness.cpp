@@ -244,6 +244,47 @@ void check_turning_points(const Branch& branch, const Record& record, const Mode
   }
 }
 
+// --- values that are passed -----------------------------------------------------------------------------------------
+
+// A watched value is met where it is passed; where it is met already at the point before, it was an event there.
+void check_passed_value(const Branch& branch, const std::string& name, double passed,
+                        const std::function<double(const RecordPoint&)>& value, Findings& findings) {
+  double greatest = std::abs(passed);
+  for (const RecordPoint& point : branch.points) greatest = std::max(greatest, std::abs(value(point)));
+  const double roundoff = 1e-9 * greatest;
+  for (std::size_t i = 0; i + 1 < branch.points.size(); ++i) {
+    const double before = value(branch.points[i]) - passed, after = value(branch.points[i + 1]) - passed;
+    if (!(std::abs(before) > roundoff) || std::isnan(after)) continue;
+    const Index step = branch.points[i + 1].step;
+    const bool is_event = branch.has_event(step, step, [&](const ListedEvent& event) {
+      return event.kind == "value-crossing" && event.monitor == name && event.value == passed;
+    });
+    const bool is_passed = std::abs(after) <= roundoff || before * after < 0.0;
+    findings.at("events.json", branch.id, step);
+    findings.require(complete, is_event == is_passed,
+                     fmt::format("{} {} {} at step {}, {} an event", name, is_passed ? "passes" : "does not pass",
+                                 round_trip(passed), step, is_passed ? "without" : "in spite of"));
+  }
+}
+
+void check_passed_values(const Branch& branch, const Record& record, const Model& model, Findings& findings) {
+  const auto check = [&](const std::string& name, double passed) {
+    const auto column = std::find_if(record.columns.begin(), record.columns.end(),
+                                     [&](const RecordColumn& one) { return one.name == name; });
+    check_passed_value(
+        branch, name, passed,
+        [&](const RecordPoint& point) {
+          return column == record.columns.end()
+                     ? point.lambda
+                     : point.monitors[static_cast<std::size_t>(column - record.columns.begin())];
+        },
+        findings);
+  };
+  for (const std::string& name : model.deck().path.watch_zero) check(name, 0.0);
+  for (const deck::OutputValues& watched : model.deck().path.watch_values)
+    for (const double passed : watched.values) check(watched.name, passed);
+}
+
 // --- bounds ---------------------------------------------------------------------------------------------------------
 
 // The path ends on a bound that it comes to from inside.
@@ -275,6 +316,7 @@ void check_completeness(const std::vector<ListedEvent>& events, const Record& re
     if (model.deck().path.events != EventSearch::none) check_counts(branch, findings);
     check_contact_changes(branch, model.sliding() != nullptr, findings);
     check_turning_points(branch, record, here, findings);
+    if (!here.in_increments()) check_passed_values(branch, record, here, findings);
     check_bounds(branch, record, here, findings);
   }
 }

@@ -19,7 +19,8 @@ struct ListedEvent {
   std::optional<Index> unstable_before{}, unstable_after{};
   double lambda_uncertainty = 0.0;  ///< half-width in λ of what is left uncertain
   bool unconfirmed = false;
-  std::string monitor{};                 ///< of a displacement limit
+  std::string monitor{};                 ///< of a turning point or a value crossing
+  std::optional<double> value{};         ///< of a value crossing
   std::vector<ContactLabel> contacts{};  ///< that change
 };
 
@@ -28,6 +29,7 @@ struct ListedEvent {
 /// - the number of unstable directions changes at events only, and by what they say;
 /// - every contact that is there at one point and not at the next, or the reverse, is named by an event of either;
 /// - λ, and each watched monitor, turns at events only, and turns there;
+/// - each watched value is passed at an event only, and passed there;
 /// - no point is beyond a bound of path.stop.
 ///
 /// What happens and is undone between two points is not seen.

@@ -232,6 +232,7 @@ ListedEvent listed_event(const Json& event) {
                      .lambda_uncertainty = number(part(event, "lambda_uncertainty")),
                      .unconfirmed = part(event, "unconfirmed") == true,
                      .monitor = text(event, "monitor")};
+  if (const Json& value = part(event, "value"); value.is_number()) listed.value = number(value);
   for (const Json& contact : part(event, "contact"))
     listed.contacts.push_back({.wall = text(contact, "wall"),
                                .member = text(contact, "member"),

@@ -46,6 +46,7 @@ bool is_change_of_contact(EventKind kind) {
     case EventKind::limit_point:
     case EventKind::contact_limit_point:
     case EventKind::turning_point:
+    case EventKind::value_crossing:
     case EventKind::branch_point:
     case EventKind::user:
       break;

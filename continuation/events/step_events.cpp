@@ -138,6 +138,20 @@ std::vector<Event> events_at(const TraceTools& tools, const StepOrigin& origin, 
   return events;
 }
 
+// The value that was landed on, and others that are passed there.
+std::vector<Event> value_crossings(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
+                                   const PathPoint& at, const StabilityCount& behind) {
+  std::vector<Event> events;
+  for (std::size_t i = 0; i < tools.options.target_values.size(); ++i) {
+    const TargetValue& target = tools.options.target_values[i];
+    if (target.event.empty()) continue;
+    const bool landed = end.event && end.event->what == EventPlace::What::target_value && end.event->which == i;
+    if (!landed && !lies_between(target, origin.point().state, at.state)) continue;
+    events.push_back(value_crossing(target, at, origin.from.count_after.unstable, behind.unstable));
+  }
+  return events;
+}
+
 // Behind a singular point others may follow before the step's end.
 StabilityCount count_behind(TraceTools& tools, const StepOrigin& origin, const ArcEnd& end) {
   if (end.singular.empty()) return end.point.count;

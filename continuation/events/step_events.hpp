@@ -39,6 +39,10 @@ ArcEndSearch locate_events(TraceTools& tools, const StepOrigin& origin, StepEnd 
 std::vector<Event> events_at(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
                              const StabilityCount& behind);
 
+/// The events of values that are passed on the way to an arc's end, where a change of contact may have led to `at`.
+std::vector<Event> value_crossings(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
+                                   const PathPoint& at, const StabilityCount& behind);
+
 /// The count just behind an arc's end, contacts not changing.
 StabilityCount count_behind(TraceTools& tools, const StepOrigin& origin, const ArcEnd& end);
 

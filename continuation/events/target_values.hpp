@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "continuation/trace_options.hpp"
 
@@ -27,6 +28,20 @@ inline bool lies_between(const TargetValue& target, const State& first, const St
 inline bool is_left(const TargetValue& target, const State& first, const State& second) {
   const double v0 = excess(target, first), v1 = excess(target, second), noise = excess_noise(target, v0, v1);
   return std::abs(v0) <= noise && std::abs(v1) > noise;
+}
+
+/// The event at a point at which the value is passed. It is solved for: what is uncertain is round-off.
+inline Event value_crossing(const TargetValue& target, const PathPoint& at, std::optional<Index> unstable_before,
+                            std::optional<Index> unstable_after) {
+  return {.kind = EventKind::value_crossing,
+          .label = target.event,
+          .state = at.state,
+          .arc = at.arc,
+          .residual = at.residual,
+          .lambda_uncertainty = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(at.state.lambda),
+          .unstable_before = unstable_before,
+          .unstable_after = unstable_after,
+          .value = target.value};
 }
 
 }  // namespace arcwall

@@ -402,6 +402,8 @@ struct Path {
   BranchPolicy branches = BranchPolicy::most_stable;
   int depth = 2;
   std::vector<std::string> watch{};  ///< monitors whose turning points are events
+  std::vector<std::string> watch_zero{};     ///< columns whose zeros are
+  std::vector<OutputValues> watch_values{};  ///< and values of columns that are when they are passed
   EventSearch events = EventSearch::locate;
   ContinuumChoice equilibrium_family = ContinuumChoice::symmetric;
   bool jumps = true;  ///< the states to which the structure jumps after losses of stability are looked for

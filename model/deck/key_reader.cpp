@@ -279,6 +279,11 @@ bool KeyReader::holds_array(std::string_view key) const {
   return found != nullptr && found->kind == Value::Kind::array;
 }
 
+bool KeyReader::holds_table(std::string_view key) const {
+  const Value* found = find(table_.value(), key);
+  return found != nullptr && found->kind == Value::Kind::table;
+}
+
 void KeyReader::report(std::string_view key, const std::string& message, const std::string& cure) {
   table_.report(key, message, cure);
 }

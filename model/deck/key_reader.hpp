@@ -44,6 +44,7 @@ class KeyReader final : public Keys {
   bool reads() const override { return true; }
   bool has(std::string_view key) const override { return table_.has(key); }
   bool holds_array(std::string_view key) const override;
+  bool holds_table(std::string_view key) const override;
   Position position() const override { return table_.position(); }
   void report(std::string_view key, const std::string& message, const std::string& cure) override;
   void report_key(const Key& key, const std::string& message, const std::string& cure) override;

@@ -51,8 +51,8 @@ void stop_keys(Keys& keys, Stop& stop) {
   keys.entries(stop.bounds, &StopBounds::name,
                [&](const Key& key, StopBounds& bounds) { return bounds_key(keys, key, bounds); },
                {"contacts", "event"});
-  keys.integer(optional("contacts", "none"), stop.contacts, {.low = 1},
-               "number of closed contacts, counted as in `path.csv`, at which the branch ends");
+  keys.integer(optional("contacts", "none"), stop.contacts, {.low = 0},
+               "number of closed contacts, counted as in `path.csv`, at which the branch ends; 0: the last one opens");
   stop_event_key(keys, stop);
 }
 
@@ -66,6 +66,9 @@ void check_stop_events(Keys& keys, const Path& path) {
     else if (event == EventKind::turning_point && path.watch.empty())
       keys.report("stop", "event = " + in_quotes(name) + " never happens: no monitor is watched",
                   "add watch = [\"MONITOR\"] to [path]");
+    else if (event == EventKind::value_crossing && path.watch_zero.empty() && path.watch_values.empty())
+      keys.report("stop", "event = " + in_quotes(name) + " never happens: no value is watched",
+                  "add watch = { zero = [\"MONITOR\"] } to [path]");
   }
 }
 
@@ -113,6 +116,26 @@ bool output_at_key(Keys& keys, const Key& output_at, std::vector<OutputValues>& 
       },
       meaning);
   return names_lambda;
+}
+
+// Monitors that turn, or a table that has values to pass as well.
+void watch_key(Keys& keys, Path& path) {
+  const Key watch = optional("watch", "none");
+  const char* turn = "monitors whose turning points are events (`turning-point`)";
+  const bool passes = !path.watch_zero.empty() || !path.watch_values.empty();
+  const bool is_table = keys.reads() ? keys.holds_table("watch") : passes;
+  if (!is_table) keys.names(watch, path.watch, Named::monitor, EmptyList::means_none, turn);
+  if (!is_table && !keys.lists()) return;
+  keys.table(
+      watch, Form::dotted,
+      [&](Keys& of) {
+        of.names(optional("turning", "none"), path.watch, Named::monitor, EmptyList::means_none, turn);
+        of.names(optional("zero", "none"), path.watch_zero, Named::column, EmptyList::means_none,
+                 "λ or monitors whose zeros are events (`value-crossing`)");
+        output_at_key(of, optional("value", "none"), path.watch_values,
+                      "values of λ or of monitors that are events when they are passed: `{ lift = [0.5] }`");
+      },
+      "or a table: `watch = { turning = [\"w\"], zero = [\"force\"], value = { w = [0.5] } }`");
 }
 
 void search_keys(Keys& keys, Path& path) {
@@ -165,8 +188,7 @@ void path_keys(Keys& keys, Path& path) {
       "branch switching at bifurcations: `\"primary\"`, `\"most-stable\"` or `\"all\"`; disconnected branches need "
       "`search`");
   keys.integer(optional("depth"), path.depth, {}, "of `\"all\"`: generations of branches");
-  keys.names(optional("watch", "none"), path.watch, Named::monitor, EmptyList::means_none,
-             "monitors whose turning points are events (`turning-point`)");
+  watch_key(keys, path);
   keys.word(optional("events"), path.events, events_words,
             "`\"locate\"`: limit and turning points become points of the path; `\"detect\"`: reported at the end of "
             "their step; `\"none\"`: ignored. Only `\"locate\"` locates and follows bifurcations. Contact changes are "

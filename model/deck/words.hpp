@@ -109,7 +109,7 @@ inline constexpr Words<EventSearch, 3> events_words{
 inline constexpr Words<ContinuumChoice, 2> equilibrium_family_words{
     {{"symmetric", ContinuumChoice::symmetric}, {"stop", ContinuumChoice::stop}}};
 
-inline constexpr Words<EventKind, 11> stop_event_words{{{"contact-closes", EventKind::contact_closes},
+inline constexpr Words<EventKind, 12> stop_event_words{{{"contact-closes", EventKind::contact_closes},
                                                         {"contact-opens", EventKind::contact_opens},
                                                         {"contact-spreads", EventKind::contact_spreads},
                                                         {"contact-splits", EventKind::contact_splits},
@@ -119,6 +119,7 @@ inline constexpr Words<EventKind, 11> stop_event_words{{{"contact-closes", Event
                                                         {"limit-point", EventKind::limit_point},
                                                         {"contact-limit-point", EventKind::contact_limit_point},
                                                         {"turning-point", EventKind::turning_point},
+{"value-crossing", EventKind::value_crossing},
                                                         {"branch-point", EventKind::branch_point}}};
 
 inline constexpr Words<EventKind, 9> curve_event_words{{{"limit-point", EventKind::limit_point},

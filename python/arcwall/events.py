@@ -210,7 +210,8 @@ class Event(Value):
     sensitivity: Mapping[str, float | None] = field(default_factory=dict)
     no_sensitivity: Mapping[str, str] = field(default_factory=dict)  #: reasons for missing sensitivities, by key
     extremum: str | None = None  #: ``maximum`` or ``minimum`` of λ, at a limit point
-    monitor: str | None = None  #: monitor with the turning point, or label of the event function
+    monitor: str | None = None  #: monitor that turns or passes a value, or label of the event function
+    value: float | None = None  #: value that the monitor passes, at a ``value-crossing``
     type: str | None = None  #: type of a branch point: ``pitchfork``, ``transcritical``, ``one-sided`` or ``multiple``
     multiplicity: int | None = None  #: number of critical modes of a branch point
     unconfirmed: bool = False  #: True if the event function reaches zero without a confirmed change of sign
@@ -375,6 +376,7 @@ KINDS = (
     "limit-point",
     "contact-limit-point",
     "turning-point",
+    "value-crossing",
     "branch-point",
     "user",
 )
@@ -471,6 +473,7 @@ def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None
         no_sensitivity=json.get("no_sensitivity", {}),
         extremum=json.get("extremum"),
         monitor=json.get("monitor"),
+        value=json.get("value"),
         type=json.get("type"),
         multiplicity=json.get("multiplicity"),
         unconfirmed=json.get("unconfirmed", False),
