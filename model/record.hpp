@@ -50,12 +50,13 @@ struct RecordContact {
   double x = 0.0;  ///< current position of the contact point [length]
 };
 
-/// Stores the sensitivity of an event's λ to a parameter of the deck.
+/// Stores the sensitivity of an event's λ and monitors to a parameter of the deck.
 struct RecordSensitivity {
   std::string key{};              ///< as the deck names it
   double value = 0.0;             ///< of the parameter
   std::optional<double> slope{};  ///< dλ/dvalue [1 over the parameter's unit]; empty: none exists or is known
-  std::string why_none{};         ///< cause of an empty slope
+  std::vector<std::optional<double>> rates{};  ///< dm/dvalue of the monitors m; empty: as above
+  std::string why_none{};                      ///< cause of an empty slope
 };
 
 /// Stores a contact point or a contact zone.

@@ -29,7 +29,7 @@ void parts(Archive& archive, RecordContact& contact) {
 
 template <typename Archive>
 void parts(Archive& archive, RecordSensitivity& sensitivity) {
-  archive(sensitivity.key, sensitivity.value, sensitivity.slope, sensitivity.why_none);
+  archive(sensitivity.key, sensitivity.value, sensitivity.slope, sensitivity.rates, sensitivity.why_none);
 }
 
 template <typename Archive>
@@ -67,9 +67,9 @@ template <typename Archive>
 void parts(Archive& archive, RecordEvent& event) {
   archive(event.id, event.kind, event.branch, event.step, event.arc, event.lambda, event.monitors,
           event.unstable_before, event.unstable_after, event.unstable_load_control, event.residual,
-          event.lambda_uncertainty, event.contacts, event.extremum, event.monitor, event.value, event.branch_end, event.branch_type,
-          event.multiplicity, event.unconfirmed, event.mesh_artefact, event.branches, event.mode, event.sensitivity,
-          event.continuum);
+          event.lambda_uncertainty, event.contacts, event.extremum, event.monitor, event.value, event.branch_end,
+          event.branch_type, event.multiplicity, event.unconfirmed, event.mesh_artefact, event.branches, event.mode,
+          event.sensitivity, event.continuum);
   keep_owned(archive, event.jump);
 }
 

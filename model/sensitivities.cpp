@@ -33,11 +33,23 @@ std::optional<double> end_of_stage(const deck::Deck& deck, const deck::Deck& var
   return std::nullopt;
 }
 
-// The monitor that turns at a displacement limit; null at other events.
-std::shared_ptr<const Observable> turning_of(const Model& model, const Event& event) {
-  for (const Watch& watch : model.watched())
-    if (event.kind == EventKind::turning_point && watch.label == event.label) return watch.quantity;
+// What turns or passes a value at an event; null at others.
+std::shared_ptr<const Observable> watched_of(const Model& model, const Event& event) {
+  if (event.kind == EventKind::limit_point) return std::make_shared<ParameterValue>();
+  if (event.kind == EventKind::turning_point)
+    for (const Watch& watch : model.watched())
+      if (watch.label == event.label) return watch.quantity;
+  if (event.kind == EventKind::value_crossing)
+    for (const TargetValue& target : model.options().target_values)
+      if (target.event == event.label) return target.quantity;
   return nullptr;
+}
+
+std::vector<std::shared_ptr<const Observable>> quantities_of(const Model& model) {
+  std::vector<std::shared_ptr<const Observable>> quantities;
+  for (const MonitorColumn& column : model.monitors())
+    quantities.push_back(column.is_place ? nullptr : column.quantity);  // places jump
+  return quantities;
 }
 
 // Steps of a number, by its natural one: that, shorter ones where it is too long, and a longer one.
@@ -150,7 +162,8 @@ std::optional<std::vector<SystemSample>> Sensitivities::samples_of(const Beside&
     if (!state) return std::nullopt;
     samples.push_back({.system = &model.system(),
                        .state = std::move(*state),
-                       .turning = turning_of(model, event),
+                       .watched = watched_of(model, event),
+                       .quantities = quantities_of(model),
                        .offset = other.offset,
                        .weight = other.weight,
                        .coarse_weight = other.coarse_weight});
@@ -189,14 +202,14 @@ std::vector<RecordSensitivity> Sensitivities::of(const Arc& arc, const Event& ev
   std::vector<RecordSensitivity> found;
   if (numbers_.empty() || !has_sensitivity(event.kind)) return found;
   const double lambda_scale = std::max(std::abs(event.state.lambda), std::abs(model_.options().step.first));
-  const auto turning = turning_of(model_, event);
-  EventDerivatives derivatives(model_.system(), arc, event, turning.get(), lambda_scale,
-                               model_.options().factorization);
+  EventDerivatives derivatives(model_.system(), arc, event, watched_of(model_, event), quantities_of(model_),
+                               lambda_scale, model_.options().factorization);
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     EventDerivative derivative = by(i, derivatives, event);
     found.push_back({.key = model_.whole_deck().path.sensitivity[i],
                      .value = numbers_[i].value,
                      .slope = derivative.value,
+                     .rates = std::move(derivative.rates),
                      .why_none = std::move(derivative.why_none)});
   }
   return found;

@@ -35,14 +35,17 @@ OrderedJson family(const Continuum& continuum) {
 }
 
 // Keys with their derivatives, and why those that are null are.
-void add_sensitivity(const std::vector<RecordSensitivity>& sensitivity, OrderedJson& json) {
+void add_sensitivity(const Record& record, const std::vector<RecordSensitivity>& sensitivity, OrderedJson& json) {
   if (sensitivity.empty()) return;
-  OrderedJson slopes = OrderedJson::object(), reasons = OrderedJson::object();
+  OrderedJson slopes = OrderedJson::object(), of_monitors = OrderedJson::object(), reasons = OrderedJson::object();
   for (const RecordSensitivity& one : sensitivity) {
     slopes[one.key] = one.slope ? number(*one.slope) : OrderedJson(nullptr);
+    for (std::size_t i = 0; i < one.rates.size(); ++i)
+      if (one.rates[i]) of_monitors[one.key][record.columns[i].name] = number(*one.rates[i]);
     if (!one.slope) reasons[one.key] = one.why_none;
   }
   json["sensitivity"] = std::move(slopes);
+  if (!of_monitors.empty()) json["monitor_sensitivity"] = std::move(of_monitors);
   if (!reasons.empty()) json["no_sensitivity"] = std::move(reasons);
 }
 
@@ -103,7 +106,7 @@ OrderedJson event_json(const Record& record, const RecordEvent& event) {
     json["branches"] = event.branches;
   }
   if (!event.mode.empty()) json["mode"] = monitors(record, event.mode);
-  add_sensitivity(event.sensitivity, json);
+  add_sensitivity(record, event.sensitivity, json);
   if (event.jump) json["jump"] = jump_json(record, *event.jump);
   if (event.branch_end) json.update(end_json(*event.branch_end));
   return json;

@@ -158,9 +158,9 @@ std::string events_text(const Record& record, const std::vector<std::string>& la
   text += tree(record, std::nullopt, 0);
   if (const auto rows = sensitivity_rows(record); !rows.empty())
     text +=
-        "\nSensitivities of λ of the events: dλ/dn by a number n of the deck, and the change of λ in per cent if n "
-        "increases by one per cent\n\n" +
-        text_table(sensitivity_columns(), rows);
+        "\nSensitivities of the events: dλ/dn by a number n of the deck, the change of λ in per cent if n increases by "
+        "one per cent, and the derivatives of the monitors\n\n" +
+        text_table(sensitivity_columns(record), rows);
   if (const auto rows = jump_rows(record); !rows.empty())
     text += "\nJumps at constant λ: destination, energy released, and λ of the return jump when λ is reversed\n\n" +
             text_table(jump_columns(record), rows);

@@ -356,7 +356,7 @@ std::string table_section(std::string_view id, std::string_view title, std::stri
 }
 
 std::string sensitivities(const Record& record) {
-  return table_section("sensitivity", "Sensitivity of the event loads", "", sensitivity_columns(),
+  return table_section("sensitivity", "Sensitivity of the event loads", "", sensitivity_columns(record),
                        sensitivity_rows(record));
 }
 

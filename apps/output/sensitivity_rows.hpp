@@ -9,7 +9,7 @@
 namespace arcwall {
 
 /// What λ of the events depends on, as a table for people: one row an event and a number of the deck.
-std::vector<TableColumn> sensitivity_columns();
+std::vector<TableColumn> sensitivity_columns(const Record& record);
 std::vector<std::vector<std::string>> sensitivity_rows(const Record& record);
 
 /// By how many per cent λ of an event changes where a number grows by one; empty where that means nothing.

@@ -166,19 +166,25 @@ EventDerivatives::Settled EventDerivatives::with_best_step(double longest, int h
   return best;
 }
 
-EventDerivatives::EventDerivatives(const System& system, const Arc& arc, const Event& event, const Observable* turning,
-                                   double lambda_scale, const MakeFactorization& factorization)
+EventDerivatives::EventDerivatives(const System& system, const Arc& arc, const Event& event,
+                                   std::shared_ptr<const Observable> watched,
+                                   std::vector<std::shared_ptr<const Observable>> quantities, double lambda_scale,
+                                   const MakeFactorization& factorization)
     : system_(system),
       metric_(system.weights(event.state.active_set), lambda_scale),
       lambda_scale_(lambda_scale),
       factorization_(factorization),
       corrector_(system, {}, lambda_scale, factorization),
       state_(event.state),
-      turning_(turning) {
+      watched_(std::move(watched)),
+      quantities_(std::move(quantities)) {
   const BranchPoint* const crossing = crossing_at(arc);
   const bool corner = is_at_change_of_contact(arc) || turns_at_kink(system, event);
   if (event.unconfirmed) {
     why_none_ = "the event is unconfirmed";
+  } else if (event.kind == EventKind::value_crossing) {
+    condition_ = Condition::value;
+    if (corner || crossing != nullptr) why_none_ = "another event lies at the same point";
   } else if (corner) {
     condition_ = Condition::guards;
   } else if (event.kind == EventKind::contact_limit_point) {
@@ -208,7 +214,7 @@ bool EventDerivatives::begin_regular(const Direction& along) {
     for (Index j = 0; j < guards.size(); ++j)
       if (std::abs(guards[j]) <= vanishing) guards_.push_back(j);
   }
-  if (condition_ == Condition::turning) {
+  if (condition_ == Condition::turning || (condition_ == Condition::limit && !quantities_.empty())) {
     turning_along_ = turning_along();
     turning_here_ = turning_rate(tangent_, Vector::Zero(state_.x.size()), 0.0);
   }
@@ -301,46 +307,96 @@ EventDerivative EventDerivatives::by(const std::vector<SystemSample>& samples) {
       return by_guards(*response, samples);
     case Condition::turning:
       return by_turning(*response, samples);
-    case Condition::limit:  // along the path λ does not change
+    case Condition::value:
+      return by_value(*response, samples);
+    case Condition::limit:
     case Condition::crossing:
       break;
   }
-  return known(response->dlambda);
+  return by_limit(*response, samples);
 }
 
-// dg/dκ of a guard, the structure following κ. By its gradient it has the fewest errors of round-off, unless what κ
-// does at the event's own state is no small change: then it is told by states that follow κ.
-double EventDerivatives::guard_rate(Index j, const Row& gradient, const Direction& response,
-                                    const std::vector<SystemSample>& samples) const {
-  const Direction stays{.dx = Vector::Zero(response.dx.size()), .dlambda = 0.0};
-  const auto rate = [&](const Direction& d) {
-    const auto guard = [&](const SystemSample& sample, const State& state) { return sample.system->guard(state, j); };
-    const double value = rate_along(samples, d, guard);
-    return Settled{.value = value, .off = std::abs(value - rate_along(samples, d, guard, true))};
+// dq/dκ of a quantity along states that move by d with κ. By its gradient it has the fewest errors of round-off, unless
+// what κ does at the event's own state is no small change: then it is told by states that follow κ.
+template <typename Quantity>
+double EventDerivatives::rate_of(const Row& gradient, const Direction& d, const std::vector<SystemSample>& samples,
+                                 const Quantity& quantity) const {
+  const Direction stays{.dx = Vector::Zero(d.dx.size()), .dlambda = 0.0};
+  const auto rate = [&](const Direction& along) {
+    const double value = rate_along(samples, along, quantity);
+    return Settled{.value = value, .off = std::abs(value - rate_along(samples, along, quantity, true))};
   };
-  const Settled following = rate(response), at_rest = rate(stays);
-  return at_rest.off <= following.off ? apply(gradient, response) + at_rest.value : following.value;
+  const Settled following = rate(d), at_rest = rate(stays);
+  return at_rest.off <= following.off ? apply(gradient, d) + at_rest.value : following.value;
+}
+
+// dm/dκ = ∂m/∂κ + ∂m/∂x · dx/dκ + ∂m/∂λ · dλ/dκ of each quantity, along the event.
+std::vector<std::optional<double>> EventDerivatives::rates(const Direction& motion,
+                                                           const std::vector<SystemSample>& samples) const {
+  std::vector<std::optional<double>> rates;
+  for (std::size_t i = 0; i < quantities_.size(); ++i) {
+    const auto quantity = [i](const SystemSample& sample, const State& state) {
+      return sample.quantities[i]->value(state);
+    };
+    const double rate =
+        quantities_[i] ? rate_of(quantities_[i]->gradient(state_), motion, samples, quantity) : std::nan("");
+    rates.push_back(std::isfinite(rate) ? std::optional(rate) : std::nullopt);
+  }
+  return rates;
+}
+
+EventDerivative EventDerivatives::of_motion(const Direction& motion, const std::vector<SystemSample>& samples) const {
+  EventDerivative found = known(motion.dlambda);
+  if (found.value) found.rates = rates(motion, samples);
+  return found;
+}
+
+// The event moves by κ across the path and, so far, back along it.
+Direction EventDerivatives::along(const Direction& response, double moves) const {
+  return {.dx = response.dx - moves * tangent_.dx, .dlambda = response.dlambda - moves * tangent_.dlambda};
+}
+
+// Along the path λ does not change: where the event moves along it matters to other quantities alone.
+EventDerivative EventDerivatives::by_limit(const Direction& response, const std::vector<SystemSample>& samples) {
+  EventDerivative found = known(response.dlambda);
+  if (!found.value || quantities_.empty()) return found;
+  const TurnedBy turned = turned_by(response, samples);
+  const Settled &equilibria = turned.equilibria.moves, &equations = turned.equations.moves;
+  const bool equilibria_tell = equilibria.off <= equations.off || !std::isfinite(equations.off);
+  found.rates = rates(along(response, equilibria_tell ? equilibria.value : equations.value), samples);
+  return found;
+}
+
+// The value is passed where the path leads it back to.
+EventDerivative EventDerivatives::by_value(const Direction& response, const std::vector<SystemSample>& samples) const {
+  const Row row = watched_->gradient(state_);
+  const double rate = apply(row, tangent_);
+  if (std::abs(rate) <= negligible * metric_.dual_norm(row)) return none("the value is only touched there");
+  const auto value = [](const SystemSample& sample, const State& state) { return sample.watched->value(state); };
+  return of_motion(along(response, rate_of(row, response, samples, value) / rate), samples);
 }
 
 // Where λ moves along the path by −t_λ (dg/dκ)/(dg/ds), the guard stays zero. Those that vanish together must agree,
 // else they do so at this value of the number alone.
 EventDerivative EventDerivatives::by_guards(const Direction& response, const std::vector<SystemSample>& samples) const {
   const double size = step_of(samples);
-  std::optional<double> found;
+  std::optional<Direction> found;
   for (const Index j : guards_) {
     const Row row = system_.guard_gradient(state_, j);
     const double rate = apply(row, tangent_);
-    const double by_number = guard_rate(j, row, response, samples);
+    const auto guard = [&](const SystemSample& sample, const State& state) { return sample.system->guard(state, j); };
+    const double by_number = rate_of(row, response, samples, guard);
     if (std::abs(rate) <= negligible && std::abs(by_number) * size <= negligible) continue;
-    const double moves = response.dlambda - by_number / rate * tangent_.dlambda;
     if (std::abs(rate) <= negligible) return none("a contact is only touched there");
-    const double scale = std::abs(moves) + std::abs(found.value_or(moves)) + negligible / size;
-    if (found && std::abs(*found - moves) > agreeing * scale)
+    Direction motion = along(response, by_number / rate);
+    const double slope = motion.dlambda, other = found ? found->dlambda : slope;
+    const double scale = std::abs(slope) + std::abs(other) + negligible / size;
+    if (std::abs(other - slope) > agreeing * scale)
       return none("contacts change together there, and would not for another value");
-    if (!found) found = moves;
+    if (!found) found = std::move(motion);
   }
   if (!found) return none("what changes there is not met to the last digit, since the mesh changes with it");
-  return known(*found);
+  return of_motion(*found, samples);
 }
 
 // The rate m′ = ∇m · t of a monitor at the equilibrium of a system near a guess that is as far along the path.
@@ -366,7 +422,7 @@ EventDerivatives::Settled EventDerivatives::turning_along() const {
     double sum = 0.0;
     for (const DifferencePlace& place : central_difference)
       sum += place.weight / h *
-             turning_beside(corrector, *turning_, moved(state_, tangent_, place.offset * h), place.offset * h);
+             turning_beside(corrector, *watched_, moved(state_, tangent_, place.offset * h), place.offset * h);
     return sum;
   });
 }
@@ -376,36 +432,38 @@ EventDerivatives::Settled EventDerivatives::turning_along() const {
 //   J δt_x + F_λ δt_λ = −D²F[t, d] − more,    ⟨t, δt⟩ = 0
 EventDerivatives::Settled EventDerivatives::turning_rate(const Direction& d, const Vector& more,
                                                          double more_of_gradient) {
-  const Row gradient = turning_->gradient(state_);
+  const Row gradient = watched_->gradient(state_);
   return with_best_step(longest_step, halvings, [&](double h) {
     const auto change = along_path(-second_derivative(tangent_, d, h) - more);
     if (!change) return std::nan("");
     const double of_gradient = difference_along(
-        metric_, state_, d, h, [&](const State& at) { return apply(turning_->gradient(at), tangent_); });
+        metric_, state_, d, h, [&](const State& at) { return apply(watched_->gradient(at), tangent_); });
     return apply(gradient, *change) + of_gradient + more_of_gradient;
   });
 }
 
 // m′ stays zero: where it changes by κ across the path, the event moves along the path.
-EventDerivatives::Settled EventDerivatives::turned(const Settled& along, const Settled& rate,
-                                                   const Direction& response) const {
+EventDerivatives::Turned EventDerivatives::turned(const Settled& along, const Settled& rate,
+                                                  const Direction& response) const {
   const double moves = rate.value / along.value;
-  return {.value = response.dlambda - moves * tangent_.dlambda,
-          .off = std::abs(tangent_.dlambda / along.value) * (rate.off + std::abs(moves) * along.off)};
+  const double off = (rate.off + std::abs(moves) * along.off) / std::abs(along.value);
+  return {.slope = {.value = response.dlambda - moves * tangent_.dlambda, .off = std::abs(tangent_.dlambda) * off},
+          .moves = {.value = moves, .off = off}};
 }
 
 // By equilibria beside the event and by second derivatives of the equations: axial forces of slender members drown the
 // latter in round-off, the former is lost where a reaction is a small difference of great forces. Of the latter two
 // steps may agree better than they are right, so that they are asked only where the former is unsure.
-EventDerivative EventDerivatives::by_turning(const Direction& response, const std::vector<SystemSample>& samples) {
+EventDerivatives::TurnedBy EventDerivatives::turned_by(const Direction& response,
+                                                       const std::vector<SystemSample>& samples) {
   Settled rate;
   double coarse = 0.0, of_gradient = 0.0;
   for (const SystemSample& sample : samples) {
     Corrector corrector(*sample.system, {}, lambda_scale_, factorization_);
-    const double there = turning_beside(corrector, *sample.turning, moved(sample.state, response, sample.offset), 0.0);
+    const double there = turning_beside(corrector, *sample.watched, moved(sample.state, response, sample.offset), 0.0);
     rate.value += sample.weight * there;
     coarse += sample.coarse_weight * there;
-    of_gradient += sample.weight * apply(sample.turning->gradient(sample.state), tangent_);
+    of_gradient += sample.weight * apply(sample.watched->gradient(sample.state), tangent_);
   }
   rate.off = std::abs(rate.value - coarse);
   const Direction stays{.dx = Vector::Zero(response.dx.size()), .dlambda = 0.0};
@@ -413,11 +471,19 @@ EventDerivative EventDerivatives::by_turning(const Direction& response, const st
     Linearization of_sample;
     return directional(*sample.system, state, tangent_, of_sample);
   });
-  const Settled by_equilibria = turned(turning_along_, rate, response);
-  const Settled by_equations = turned(turning_here_, turning_rate(response, more, of_gradient), response);
-  const bool equilibria_tell = by_equilibria.off <= short_enough * std::abs(by_equilibria.value) ||
-                               by_equilibria.off < by_equations.off || !std::isfinite(by_equations.off);
-  EventDerivative found = settled(equilibria_tell ? by_equilibria : by_equations, samples);
+  return {.equilibria = turned(turning_along_, rate, response),
+          .equations = turned(turning_here_, turning_rate(response, more, of_gradient), response),
+          .rate = rate};
+}
+
+EventDerivative EventDerivatives::by_turning(const Direction& response, const std::vector<SystemSample>& samples) {
+  const auto [by_equilibria, by_equations, rate] = turned_by(response, samples);
+  const bool equilibria_tell = by_equilibria.slope.off <= short_enough * std::abs(by_equilibria.slope.value) ||
+                               by_equilibria.slope.off < by_equations.slope.off ||
+                               !std::isfinite(by_equations.slope.off);
+  const Turned& told = equilibria_tell ? by_equilibria : by_equations;
+  EventDerivative found = settled(told.slope, samples);
+  if (found.value) found.rates = rates(along(response, told.moves.value), samples);
   found.off = rate.off;
   found.steps_too_long = equilibria_tell && !(rate.off <= short_enough * std::abs(rate.value));
   return found;
@@ -462,15 +528,23 @@ EventDerivative EventDerivatives::by_crossing(const std::vector<SystemSample>& s
     right[i] = rate_along(samples, *v, work);
     off[i] = std::abs(right[i] - rate_along(samples, *v, work, true));
   }
+  const auto with_rates = [&](const Settled& slope, double along_mode) {
+    EventDerivative found = settled(slope, samples);
+    const Direction motion{.dx = v->dx + along_mode * kernel_[0].dx + slope.value * kernel_[1].dx,
+                           .dlambda = slope.value};
+    if (found.value) found.rates = rates(motion, samples);
+    return found;
+  };
   if (is_symmetric_) {
     const double slope = -right[0] / bend_(0, 1);
-    return settled({.value = slope, .off = (off[0] + std::abs(slope) * bend_off_(0, 1)) / std::abs(bend_(0, 1))},
-                   samples);
+    return with_rates({.value = slope, .off = (off[0] + std::abs(slope) * bend_off_(0, 1)) / std::abs(bend_(0, 1))},
+                      -(right[1] + bend_(1, 1) * slope) / bend_(1, 0));
   }
   const double determinant = bend_.determinant();
   const double slope = -(bend_(0, 0) * right[1] - bend_(1, 0) * right[0]) / determinant;
   const double parts = std::abs(bend_(0, 0)) * off[1] + std::abs(bend_(1, 0)) * off[0];
-  return settled({.value = slope, .off = parts / std::abs(determinant)}, samples);
+  return with_rates({.value = slope, .off = parts / std::abs(determinant)},
+                    -(bend_(1, 1) * right[0] - bend_(0, 1) * right[1]) / determinant);
 }
 
 }  // namespace arcwall

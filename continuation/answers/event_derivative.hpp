@@ -18,15 +18,17 @@ namespace arcwall {
 struct SystemSample {
   const System* system = nullptr;               ///< must outlive its use
   State state{};                                ///< the event's, in the unknowns of this system
-  std::shared_ptr<const Observable> turning{};  ///< the quantity that turns at a displacement limit, of this system
-  double offset = 0.0;                          ///< its value of κ less the event's [κ]
-  double weight = 0.0;                          ///< [1/κ]
-  double coarse_weight = 0.0;                   ///< the same of differences of a lower order, which tell the error
+  std::shared_ptr<const Observable> watched{};  ///< the quantity that turns or passes a value there, of this system
+  std::vector<std::shared_ptr<const Observable>> quantities{};  ///< of this system, of which rates are wanted
+  double offset = 0.0;                                          ///< its value of κ less the event's [κ]
+  double weight = 0.0;                                          ///< [1/κ]
+  double coarse_weight = 0.0;  ///< the same of differences of a lower order, which tell the error
 };
 
-/// dλ/dκ of an event, or in words why there is none.
+/// dλ/dκ of an event, or in words why there is none, and dm/dκ of quantities m there.
 struct EventDerivative {
   std::optional<double> value{};
+  std::vector<std::optional<double>> rates{};  ///< of the quantities, in their order; empty: unknown
   std::string why_none{};
   bool steps_too_long = false;  ///< whether samples nearer to the event's κ may tell it better
   double off = 0.0;             ///< then, by which differences of lower order differ
@@ -34,19 +36,22 @@ struct EventDerivative {
 
 /// How an event moves along λ where a number of the model changes (docs/theory.md, section 12): along the equilibria
 /// that fulfil the event's condition. That is a vanishing guard for changes of contact and what turns with them, λ′ = 0
-/// for a limit point, m′ = 0 for a monitor m that turns, and two tangents for a branch point.
+/// for a limit point, m′ = 0 for a monitor m that turns, its value for one that passes a value, and two tangents for a
+/// branch point.
 class EventDerivatives {
  public:
-  /// Of an event of an arc, which lies at the arc's end. `system` must outlive this. `turning`: the quantity that turns
-  /// at a displacement limit, which must outlive this too; null for others.
-  EventDerivatives(const System& system, const Arc& arc, const Event& event, const Observable* turning,
-                   double lambda_scale, const MakeFactorization& factorization);
+  /// Of an event of an arc, which lies at the arc's end. `system` must outlive this. `watched`: the quantity that turns
+  /// or passes a value there, null at other events; `quantities`: those
+  /// whose rates are wanted, null where none is.
+  EventDerivatives(const System& system, const Arc& arc, const Event& event, std::shared_ptr<const Observable> watched,
+                   std::vector<std::shared_ptr<const Observable>> quantities, double lambda_scale,
+                   const MakeFactorization& factorization);
 
   /// By one number. The samples lie on both sides of its value.
   EventDerivative by(const std::vector<SystemSample>& samples);
 
  private:
-  enum class Condition { limit, turning, guards, crossing };
+  enum class Condition { limit, turning, value, guards, crossing };
 
   // A difference with the step that serves best, and by how much the next one differs.
   struct Settled {
@@ -60,15 +65,29 @@ class EventDerivatives {
   std::optional<Direction> followed(const std::vector<SystemSample>& samples, const Solve& solve) const;
   std::optional<Direction> along_path(const Vector& f);
   std::optional<Direction> across_crossing(const Vector& f);
-  double guard_rate(Index j, const Row& gradient, const Direction& response,
-                    const std::vector<SystemSample>& samples) const;
+  template <typename Quantity>
+  double rate_of(const Row& gradient, const Direction& d, const std::vector<SystemSample>& samples,
+                 const Quantity& quantity) const;
+  EventDerivative of_motion(const Direction& motion, const std::vector<SystemSample>& samples) const;
+  Direction along(const Direction& response, double moves) const;
+  EventDerivative by_limit(const Direction& response, const std::vector<SystemSample>& samples);
+  EventDerivative by_value(const Direction& response, const std::vector<SystemSample>& samples) const;
   EventDerivative by_guards(const Direction& response, const std::vector<SystemSample>& samples) const;
   EventDerivative by_turning(const Direction& response, const std::vector<SystemSample>& samples);
   double turning_beside(Corrector& corrector, const Observable& turning, const State& guess, double along) const;
   Settled turning_along() const;
   Vector second_derivative(const Direction& k, const Direction& d, double h);
   Settled turning_rate(const Direction& d, const Vector& more, double more_of_gradient);
-  Settled turned(const Settled& along, const Settled& rate, const Direction& response) const;
+  struct Turned {
+    Settled slope, moves;
+  };
+  Turned turned(const Settled& along, const Settled& rate, const Direction& response) const;
+  struct TurnedBy {
+    Turned equilibria, equations;
+    Settled rate;
+  };
+  TurnedBy turned_by(const Direction& response, const std::vector<SystemSample>& samples);
+  std::vector<std::optional<double>> rates(const Direction& motion, const std::vector<SystemSample>& samples) const;
   double greatest_work(const Vector& f) const;
   EventDerivative settled(const Settled& slope, const std::vector<SystemSample>& samples) const;
   template <typename Function>
@@ -84,16 +103,17 @@ class EventDerivatives {
   State state_;
   Condition condition_ = Condition::limit;
   std::string why_none_;
-  Direction tangent_;                    // of the path; of a branch point none
-  const Observable* turning_ = nullptr;  // of a displacement limit
-  Settled turning_along_;                // the rate of its rate along the path, by equilibria
-  Settled turning_here_;                 // and by the second derivatives of the equations
-  std::vector<Index> guards_;            // that vanish
-  Vector left_;                          // of a branch point: the left null vector w,
-  double load_work_ = 0.0;               // the most work of the loads along it,
-  std::vector<Direction> kernel_;        // the null vectors of [J F_λ]: the mode, and one with λ = 1,
-  bool is_symmetric_ = false;            // whether it is a pitchfork,
-  Eigen::Matrix2d bend_, bend_off_;      // and wᵀ D²F of these
+  Direction tangent_;                          // of the path; of a branch point none
+  std::shared_ptr<const Observable> watched_;  // what turns or passes a value; λ of a limit point
+  std::vector<std::shared_ptr<const Observable>> quantities_;
+  Settled turning_along_;            // the rate of its rate along the path, by equilibria
+  Settled turning_here_;             // and by the second derivatives of the equations
+  std::vector<Index> guards_;        // that vanish
+  Vector left_;                      // of a branch point: the left null vector w,
+  double load_work_ = 0.0;           // the most work of the loads along it,
+  std::vector<Direction> kernel_;    // the null vectors of [J F_λ]: the mode, and one with λ = 1,
+  bool is_symmetric_ = false;        // whether it is a pitchfork,
+  Eigen::Matrix2d bend_, bend_off_;  // and wᵀ D²F of these
 };
 
 }  // namespace arcwall

@@ -208,6 +208,8 @@ class Event(Value):
     contacts: tuple[Contact, ...] = ()  #: contacts that change
     #: dλ/dn by the key of each requested parameter n; None if ``no_sensitivity`` has a reason
     sensitivity: Mapping[str, float | None] = field(default_factory=dict)
+    #: dm/dn of the monitors m along the event, by key and name
+    monitor_sensitivity: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     no_sensitivity: Mapping[str, str] = field(default_factory=dict)  #: reasons for missing sensitivities, by key
     extremum: str | None = None  #: ``maximum`` or ``minimum`` of λ, at a limit point
     monitor: str | None = None  #: monitor that turns or passes a value, or label of the event function
@@ -470,6 +472,7 @@ def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None
         lambda_uncertainty=_float(json["lambda_uncertainty"]),
         contacts=tuple(Contact(c["wall"], c["member"], _float(c["fraction"]), _float(c["x"])) for c in json.get("contact", ())),
         sensitivity=json.get("sensitivity", {}),
+        monitor_sensitivity=json.get("monitor_sensitivity", {}),
         no_sensitivity=json.get("no_sensitivity", {}),
         extremum=json.get("extremum"),
         monitor=json.get("monitor"),
