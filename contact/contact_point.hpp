@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,18 @@ struct ContactPoint {
   /// The force over the length of axis that it stands for [force/length]; empty where it is a point force.
   std::optional<double> pressure() const {
     return label.tributary > 0.0 ? std::optional(force / label.tributary) : std::nullopt;
+  }
+};
+
+/// The contacts of a wall, or those of them with one member or with one place of it.
+struct ContactsOfWall {
+  std::string wall{};
+  std::string member{};              ///< empty: of all
+  std::optional<double> fraction{};  ///< of the member's arc length
+
+  bool includes(const std::string& touching, double at) const {
+    constexpr double same = 1e-9;
+    return member.empty() || (touching == member && (!fraction || std::abs(at - *fraction) <= same));
   }
 };
 
@@ -63,9 +76,9 @@ class ContactQuery {
   /// Nodes that are pressed on an obstacle between two closed contacts, where the layout of the active set has such.
   virtual std::vector<ContactPoint> pressed_nodes(const State&) const { return {}; }
 
-  /// The sum of what a wall's contacts contribute to the equations of equilibrium, so that it is in balance with loads
+  /// The sum of what contacts of a wall contribute to the equations of equilibrium, so that it is in balance with loads
   /// and reactions: of parts that are pressed on curved walls that is more than the forces along the normals.
-  virtual WallAction wall_action(const State& state, const std::string& wall, const Vec2& about) const = 0;
+  virtual WallAction wall_action(const State& state, const ContactsOfWall& of, const Vec2& about) const = 0;
 };
 
 }  // namespace arcwall

@@ -305,14 +305,15 @@ std::vector<ContactPoint> MultiplierContact::closed_contacts(const State& state)
 }
 
 // Of one contact t ∇g, at the point that touches.
-WallAction MultiplierContact::wall_action(const State& state, const std::string& wall, const Vec2& about) const {
+WallAction MultiplierContact::wall_action(const State& state, const ContactsOfWall& of, const Vec2& about) const {
   WallAction action(state.x.size());
   const Index n = inner_.size({});
   for_each_force(state.active_set, [&](std::size_t j, Index k) {
     const Candidate& contact = candidates_[j];
     const double p = state.x[n + k], r = springs_[j].r;
     const bool of_opposite = contact.opposite() && p < 0.0;
-    if ((of_opposite ? candidate(*contact.opposite()) : contact).label().wall != wall) return;
+    const ContactLabel& label = (of_opposite ? candidate(*contact.opposite()) : contact).label();
+    if (label.wall != of.wall || !of.includes(label.member, label.fraction)) return;
     PointKinematics at;
     contact.point().kinematics(state, at);
     const QuadraticField g = contact.obstacle().gap(at.position, state.lambda);

@@ -75,7 +75,7 @@ class MultiplierContact final : public System, public ContactQuery {
   ContactPoint contact(const State& state, Index j) const override;
   double force(const State& state, Index j) const override;
   std::vector<ContactPoint> closed_contacts(const State& state) const override;
-  WallAction wall_action(const State& state, const std::string& wall, const Vec2& about) const override;
+  WallAction wall_action(const State& state, const ContactsOfWall& of, const Vec2& about) const override;
 
  private:
   State inner_state(const State& state) const {

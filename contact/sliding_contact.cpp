@@ -380,8 +380,8 @@ std::vector<ContactPoint> SlidingContact::pressed_nodes(const State& state) cons
   return sliding::pressed_nodes(*setting_, SlidingState(state));
 }
 
-WallAction SlidingContact::wall_action(const State& state, const std::string& wall, const Vec2& about) const {
-  return sliding::wall_action(*setting_, SlidingState(state), wall, about);
+WallAction SlidingContact::wall_action(const State& state, const ContactsOfWall& of, const Vec2& about) const {
+  return sliding::wall_action(*setting_, SlidingState(state), of, about);
 }
 
 std::optional<SlidingContact::Entered> SlidingContact::entered(const State& state, double depth) const {

@@ -78,7 +78,7 @@ class SlidingContact final : public System, public ContactQuery {
   double force(const State& state, Index j) const override;
   std::vector<ContactPoint> closed_contacts(const State& state) const override;
   std::vector<ContactPoint> pressed_nodes(const State& state) const override;
-  WallAction wall_action(const State& state, const std::string& wall, const Vec2& about) const override;
+  WallAction wall_action(const State& state, const ContactsOfWall& of, const Vec2& about) const override;
 
   /// The stress-free state, all contacts open.
   State rest() const;

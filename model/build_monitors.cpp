@@ -157,19 +157,34 @@ std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Pla
 
 namespace {
 
-// The resultant force of a wall; null where the deck has other problems, so that nothing is traced.
-std::shared_ptr<const Observable> wall_force(const deck::Deck& deck, const Measured& from,
-                                             const deck::Monitor& monitor) {
+// The resultant force of a wall, on a member or on its end where these are named; null where the deck has other
+// problems, so that nothing is traced.
+std::shared_ptr<const Observable> wall_force(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
+                                             std::string member, std::optional<double> end) {
   const deck::Wall& wall = *deck::find(deck.walls, monitor.wall);
   if (from.contacts == nullptr) return std::make_shared<ParameterValue>();
   const WallForce::What what = monitor.component == deck::Component::force_x   ? WallForce::What::x
                                : monitor.component == deck::Component::force_z ? WallForce::What::z
                                                                                : WallForce::What::moment;
-  return std::make_shared<WallForce>(*from.contacts, wall.name, what, motion_of(wall).about);
+  ContactsOfWall of{.wall = wall.name, .member = std::move(member), .fraction = end};
+  return std::make_shared<WallForce>(*from.contacts, std::move(of), what, motion_of(wall).about);
+}
+
+// A wall that is not in the way of the member exerts nothing on it.
+std::shared_ptr<const Observable> on_wall(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
+                                          DeckProblems& problems) {
+  const deck::Wall& wall = *deck::find(deck.walls, monitor.wall);
+  if (monitor.member.empty() || concerns(wall, monitor.member))
+    return wall_force(deck, from, monitor, monitor.member, std::nullopt);
+  problems.add(monitor.position, "monitor.member",
+               "wall \"" + wall.name + "\" does not stand in the way of \"" + monitor.member + "\"",
+               "add the member to `members` of the wall, or name a member that is there");
+  return nullptr;
 }
 
 // --- the gap between a place and a wall -----------------------------------------------------------------------------
 
+// The gap, or the contact force that acts on the place, which is an end of a member.
 std::shared_ptr<const Observable> gap(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
                                       DeckProblems& problems) {
   const deck::Wall& wall = *deck::find(deck.walls, monitor.wall);
@@ -182,6 +197,8 @@ std::shared_ptr<const Observable> gap(const deck::Deck& deck, const Measured& fr
                  "add the member to `members` of the wall, or name a place of a member that is there");
     return nullptr;
   }
+  if (monitor.component != deck::Component::gap)
+    return wall_force(deck, from, monitor, end->mesh->name, end->mesh->fraction(end->position));
   return from.body.gap(index_of(*end->mesh, from.structure), end->position, faced_obstacle(wall, *end->mesh));
 }
 
@@ -328,7 +345,7 @@ std::shared_ptr<const Observable> shown_by(const deck::Deck& deck, const Measure
   if (is_greatest(monitor.component)) return greatest(deck, from, monitor, OfGreatest::value);
   switch (monitor.of()) {
     case deck::Monitored::wall:
-      return wall_force(deck, from, monitor);
+      return on_wall(deck, from, monitor, problems);
     case deck::Monitored::gap:
       return gap(deck, from, monitor, problems);
     case deck::Monitored::spring:
@@ -405,7 +422,7 @@ Watch::Kind kind_of(const MonitorColumn& column, const deck::Deck& deck) {
     case deck::Component::force_z:
     case deck::Component::moment: {
       const deck::Monitor* monitor = deck::find(deck.monitors, column.name);
-      const bool of_wall = monitor != nullptr && monitor->of() == deck::Monitored::wall;
+      const bool of_wall = monitor != nullptr && !monitor->wall.empty();
       return of_wall ? Watch::Kind::contact_force : Watch::Kind::inner_force;
     }
     case deck::Component::reaction_x:

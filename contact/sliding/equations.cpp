@@ -216,12 +216,18 @@ std::size_t obstacle_that_acts(const SlidingSetting& setting, const SlidingState
 
 }  // namespace
 
-WallAction wall_action(const SlidingSetting& setting, const SlidingState& at, const std::string& wall,
+WallAction wall_action(const SlidingSetting& setting, const SlidingState& at, const ContactsOfWall& of,
                        const Vec2& about) {
   WallAction action(at.state.x.size());
+  const auto includes = [&](const Touch& touch) {
+    if (setting.obstacles[obstacle_that_acts(setting, at, touch)].name != of.wall) return false;
+    if (of.member.empty()) return true;
+    const double s = at.mesh.coordinate(touch.strand, touch.position, at.now.s);
+    const auto [member, fraction] = setting.body.label({.strand = touch.strand, .s = s});
+    return of.includes(member, fraction);
+  };
   for_each_constraint(setting, at, [&](const auto& function, const Touch& touch, Index multiplier) {
-    if (setting.obstacles[obstacle_that_acts(setting, at, touch)].name == wall)
-      add_to_action(function(), touch, multiplier, at, about, action);
+    if (includes(touch)) add_to_action(function(), touch, multiplier, at, about, action);
   });
   return action;
 }

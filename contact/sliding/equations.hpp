@@ -12,7 +12,7 @@ namespace arcwall::sliding {
 void residual(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F);
 
 /// See ContactQuery.
-WallAction wall_action(const SlidingSetting& setting, const SlidingState& at, const std::string& wall,
+WallAction wall_action(const SlidingSetting& setting, const SlidingState& at, const ContactsOfWall& of,
                        const Vec2& about);
 
 /// See Equations::linearize.

@@ -319,8 +319,8 @@ constexpr bool is_stress(Component component) {
 /// What a monitor is of.
 enum class Monitored {
   place,
-  wall,       ///< the resultant of its contact forces on the structure
-  gap,        ///< between a place and a wall
+  wall,       ///< the resultant of its contact forces on the structure, or on a member
+  gap,        ///< between a place and a wall, or the contact force there
   member,     ///< the greatest of what its sections carry
   structure,  ///< the same of all members
   spring
@@ -337,7 +337,7 @@ struct Monitor {
 
   Monitored of() const {
     if (!spring.empty()) return Monitored::spring;
-    if (!member.empty()) return Monitored::member;
+    if (!member.empty()) return wall.empty() ? Monitored::member : Monitored::wall;
     if (wall.empty()) return at.name.empty() ? Monitored::structure : Monitored::place;
     return at.name.empty() ? Monitored::wall : Monitored::gap;
   }
@@ -401,7 +401,7 @@ struct Path {
   Given max_points_given{};
   BranchPolicy branches = BranchPolicy::most_stable;
   int depth = 2;
-  std::vector<std::string> watch{};  ///< monitors whose turning points are events
+  std::vector<std::string> watch{};          ///< monitors whose turning points are events
   std::vector<std::string> watch_zero{};     ///< columns whose zeros are
   std::vector<OutputValues> watch_values{};  ///< and values of columns that are when they are passed
   EventSearch events = EventSearch::locate;

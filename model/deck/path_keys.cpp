@@ -301,7 +301,8 @@ void check_face(Keys& keys, const Deck& deck, const Monitor& monitor) {
 }
 
 constexpr const char* what_to_monitor =
-    "give `at` for a place, `wall` for the force of a wall, both for the gap between them, `member` for the maximum "
+    "give `at` for a place, `wall` for the force of a wall, both for the gap between them, `wall` and `member` for its "
+    "force on that member, `member` for the maximum "
     "moment or stress of a member, or `spring` for the force of a spring";
 
 // What has a component, and what is to be written where it stands with something else.
@@ -363,8 +364,9 @@ bool check_owner(Keys& keys, const Monitor& monitor) {
              refuse("a wall has no " + word, component == Component::gap ? "add `at`: the place of which it is the gap"
                                                                          : "give force-x, force-z or moment");
     case Monitored::gap:
-      return component == Component::gap || refuse("a place and a wall have a gap between them, and no " + word,
-                                                   "give component = \"gap\", or leave out `wall` or `at`");
+      return component == Component::gap || component == Component::force_x || component == Component::force_z ||
+             refuse("a place and a wall have a gap and a force between them, and no " + word,
+                    "give gap, force-x or force-z, or leave out `wall` or `at`");
     case Monitored::member:
       return component == Component::max_moment || is_stress(component) ||
              refuse("a member as a whole has no " + word,
@@ -428,19 +430,23 @@ void check_monitored(Keys& keys, const Deck& deck, const Monitor& monitor) {
   if (!check_owner(keys, monitor)) return;
   if (monitor.of() == Monitored::place) check_face(keys, deck, monitor);
   if (monitor.of() == Monitored::spring) check_spring(keys, deck, monitor);
+  const double end = monitor.at.fraction.value_or(0.0);
+  if (monitor.of() == Monitored::gap && monitor.component != Component::gap && end != 0.0 && end != 1.0)
+    keys.report("at", "contact inside a member moves along it, so that no place has a force of its own",
+                "name an end of the member, as MEMBER:1, or write `member` for the force on the whole member");
   if (is_stress(monitor.component)) return check_stress(keys, deck, monitor);
   const Member* member = monitor.of() == Monitored::member ? find(deck.members, monitor.member) : nullptr;
   if (member != nullptr && member->theory == Theory::truss)
     keys.report("member", "member " + member->name + " is a truss, which carries no moment", "name a beam");
 }
 
-// One of these keys, a place and a wall, or none of a stress in the whole structure.
+// One of these keys, a wall with a place or a member, or none of a stress in the whole structure.
 bool check_what_is_monitored(Keys& keys) {
   std::vector<std::string> given;
   for (const char* key : {"at", "wall", "member", "spring"})
     if (keys.has(key)) given.emplace_back(key);
-  const bool gap = given.size() == 2 && given[0] == "at" && given[1] == "wall";
-  if (given.size() <= 1 || gap) return true;
+  const bool of_wall = given.size() == 2 && (given[0] == "wall" || given[1] == "wall") && given[1] != "spring";
+  if (given.size() <= 1 || of_wall) return true;
   keys.report(given.back(), "the monitor has both `" + given[0] + "` and `" + given.back() + "`", what_to_monitor);
   return false;
 }
@@ -455,8 +461,10 @@ void monitored_keys(Keys& keys, Monitor& monitor, const Deck& deck) {
   const auto name_key = [&](const char* key, std::string& name, Named of, const char* meaning) {
     if (shows(key, name)) right = keys.name(key, name, of, meaning) && right;
   };
-  name_key("wall", monitor.wall, Named::wall, "instead of `at`: a wall (resultant force); with `at`: a wall (gap)");
-  name_key("member", monitor.member, Named::member, "instead of `at`: a member (maximum moment or stress)");
+  name_key("wall", monitor.wall, Named::wall,
+           "instead of `at`: a wall (resultant force); with `at`: a wall (gap, force on the end of a member)");
+  name_key("member", monitor.member, Named::member,
+           "instead of `at`: a member (maximum moment or stress); with `wall`: the member on which the force acts");
   name_key("spring", monitor.spring, Named::spring, "instead of `at`: a spring (its force)");
   if (keys.word("component", monitor.component, component_words, "one of the following") && right)
     check_monitored(keys, deck, monitor);
