@@ -230,10 +230,19 @@ std::vector<std::string> map_keys(const sweep::Sweep& sweep, const std::vector<s
   return names;
 }
 
+std::vector<std::string> map_monitors(const sweep::Overview& of_all, const std::vector<std::string>& wanted) {
+  for (const std::string& name : wanted)
+    if (std::find(of_all.monitors.begin(), of_all.monitors.end(), name) == of_all.monitors.end())
+      throw InputError(fmt::format("--monitor is {}, which no case has{}; they have {}", name,
+                                   suggestion(name, of_all.monitors), fmt::join(of_all.monitors, ", ")));
+  return wanted;
+}
+
 ExitStatus collect(const Options& options) {
   const sweep::Collection collection(options.words().front());
   const sweep::Overview of_all = sweep::overview(collection);
-  sweep::DrawnCases drawn(collection, of_all, map_keys(collection.sweep(), options.texts("over")));
+  sweep::DrawnCases drawn(collection, of_all, map_keys(collection.sweep(), options.texts("over")),
+                          map_monitors(of_all, options.texts("monitor")));
   sweep::Tables tables(collection, of_all);
   collection.visit([&](const sweep::Case& one, const sweep::CaseResult& result) {
     tables.add(one, result);
@@ -309,6 +318,10 @@ std::vector<Command> sweep_commands() {
                        .options = {{.name = "over",
                                     .value = "KEY",
                                     .help = "varied key that the maps go over, one or two (default: the first two)",
+                                    .repeatable = true},
+                                   {.name = "monitor",
+                                    .value = "NAME",
+                                    .help = "monitor at the events to draw instead of λ, one or more",
                                     .repeatable = true}},
                        .least_words = 1,
                        .most_words = 1},

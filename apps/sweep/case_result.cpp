@@ -90,9 +90,9 @@ bool is_limit(const Json& event) {
   return kind == to_text(EventKind::limit_point) || kind == to_text(EventKind::contact_limit_point);
 }
 
-std::optional<double> load(const Json& event) {
-  const Json lambda = event.value("lambda", Json());
-  return lambda.is_number() ? std::optional(lambda.get<double>()) : std::nullopt;
+std::optional<double> load(const Json& event, const std::string& monitor = {}) {
+  const Json value = monitor.empty() ? event.value("lambda", Json()) : event.at("monitors").value(monitor, Json());
+  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
 }
 
 }  // namespace
@@ -225,10 +225,11 @@ CaseResult result_of_record(const Json& record) {
   return result;
 }
 
-std::optional<double> first_load(const CaseResult& result, const std::vector<std::string>& kinds) {
+std::optional<double> first_load(const CaseResult& result, const std::vector<std::string>& kinds,
+                                 const std::string& monitor) {
   for (const Json& event : result.events)
     for (const std::string& kind : kinds)
-      if (event.value("kind", "") == kind) return load(event);
+      if (event.value("kind", "") == kind) return load(event, monitor);
   return std::nullopt;
 }
 
@@ -241,10 +242,10 @@ std::vector<double> limit_loads(const CaseResult& result) {
   return loads;
 }
 
-std::optional<double> snap_load(const CaseResult& result) {
+std::optional<double> snap_load(const CaseResult& result, const std::string& monitor) {
   for (const Json& event : result.events)
     if (is_limit(event) && event.value("unstable_before", Json()) == 0 && event.value("unstable_after", Json()) != 0)
-      return load(event);
+      return load(event, monitor);
   return std::nullopt;
 }
 

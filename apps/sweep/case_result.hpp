@@ -51,13 +51,15 @@ CaseResult read_folder(const std::filesystem::path& folder, const CaseEnd& end);
 Json record_of(const CaseEnd& end, const CaseResult& result);
 CaseResult result_of_record(const Json& record);
 
-/// λ of the first event of one of these kinds.
-std::optional<double> first_load(const CaseResult& result, const std::vector<std::string>& kinds);
+/// λ of the first event of one of these kinds, or a monitor there, where one is named.
+std::optional<double> first_load(const CaseResult& result, const std::vector<std::string>& kinds,
+                                 const std::string& monitor = {});
 
 /// λ of every limit point, those at changes of contact included, in the order of the events.
 std::vector<double> limit_loads(const CaseResult& result);
 
 /// The load under which the structure snaps: λ of the first limit point at which a stable path loses its stability.
-std::optional<double> snap_load(const CaseResult& result);
+/// Or a monitor there, where one is named.
+std::optional<double> snap_load(const CaseResult& result, const std::string& monitor = {});
 
 }  // namespace arcwall::sweep

@@ -52,19 +52,24 @@ bool less_by_x(const MapPoint& a, const MapPoint& b) {
 }  // namespace
 
 std::optional<double> LoadKind::of(const CaseResult& result) const {
-  return event.empty() ? snap_load(result) : first_load(result, {event});
+  return event.empty() ? snap_load(result, monitor) : first_load(result, {event}, monitor);
 }
 
-std::vector<LoadKind> load_kinds(const Overview& of_all) {
+std::vector<LoadKind> load_kinds(const Overview& of_all, const std::vector<std::string>& monitors) {
   std::vector<LoadKind> kinds;
-  if (of_all.has_snaps) kinds.push_back({.title = "λ of the snap"});
-  for (const std::string& kind : of_all.event_kinds)
-    kinds.push_back({.title = "λ of the first " + kind, .event = kind});
+  const auto add = [&](const std::string& name, const std::string& monitor) {
+    if (of_all.has_snaps) kinds.push_back({.title = name + " of the snap", .monitor = monitor});
+    for (const std::string& kind : of_all.event_kinds)
+      kinds.push_back({.title = name + " of the first " + kind, .event = kind, .monitor = monitor});
+  };
+  if (monitors.empty()) add("λ", "");
+  for (const std::string& monitor : monitors) add(monitor, monitor);
   return kinds;
 }
 
-DrawnCases::DrawnCases(const Collection& collection, const Overview& of_all, const std::vector<std::string>& keys)
-    : collection_(collection), order_(keys), loads_(load_kinds(of_all)) {
+DrawnCases::DrawnCases(const Collection& collection, const Overview& of_all, const std::vector<std::string>& keys,
+                       const std::vector<std::string>& monitors)
+    : collection_(collection), order_(keys), loads_(load_kinds(of_all, monitors)) {
   for (const Key& key : collection.sweep().keys)
     if (std::find(keys.begin(), keys.end(), key.name) == keys.end()) order_.push_back(key.name);
   for (const std::string& key : order_) order_titles_.push_back(key_title(collection, key));
@@ -163,9 +168,16 @@ MapPoint DrawnCases::point(const std::pair<Json, Json>& at, const Mean& mean, st
   return point;
 }
 
+// λ multiplies something; a monitor is what it is.
+MapTitles DrawnCases::titles_of(std::size_t load) const {
+  MapTitles titles = titles_;
+  titles.load = loads_[load].title;
+  if (!loads_[load].monitor.empty()) titles.unit.clear();
+  return titles;
+}
+
 LoadMap DrawnCases::map(std::size_t load) const {
-  LoadMap map{.titles = titles_};
-  map.titles.load = loads_[load].title;
+  LoadMap map{.titles = titles_of(load)};
   for (const One& one : cases_) map.points.push_back(point(one, load, keys_drawn()));
   for (const auto& [at, mean] : means_) map.points.push_back(point(at, mean, load));
   return map;
@@ -177,9 +189,8 @@ LoadLines DrawnCases::lines(std::size_t load, std::size_t key) const {
     if (key == 1) std::swap(point.x, point.y);
     return point;
   };
-  LoadLines lines{.titles = titles_};
+  LoadLines lines{.titles = titles_of(load)};
   if (key == 1) std::swap(lines.titles.x, lines.titles.y);
-  lines.titles.load = loads_[load].title;
   std::map<std::vector<std::string>, std::size_t> place;  // of the values of the other keys
   const auto line_of = [&](const std::vector<std::string>& others, const std::string& name,
                            const Json& panel) -> LoadLine& {

@@ -12,22 +12,25 @@
 
 namespace arcwall::sweep {
 
-/// A load that cases have: that of the snap, or of the first event of a kind.
+/// A load that cases have: λ or a monitor at the snap, or at the first event of a kind.
 struct LoadKind {
-  std::string title{};  ///< `λ of the snap`
-  std::string event{};  ///< empty: the snap
+  std::string title{};    ///< `λ of the snap`
+  std::string event{};    ///< empty: the snap
+  std::string monitor{};  ///< empty: λ
 
   std::optional<double> of(const CaseResult& result) const;
 };
 
-std::vector<LoadKind> load_kinds(const Overview& of_all);
+/// Of λ, or of these monitors.
+std::vector<LoadKind> load_kinds(const Overview& of_all, const std::vector<std::string>& monitors);
 
 /// The cases as maps and lines show them: each alone, or, where they would be too much for a page, all those near one
 /// another as their mean. It takes cases one after the other and keeps no more than it draws.
 class DrawnCases {
  public:
-  /// `keys`: one or two of the varied keys.
-  DrawnCases(const Collection& collection, const Overview& of_all, const std::vector<std::string>& keys);
+  /// `keys`: one or two of the varied keys; `monitors`: those that are drawn instead of λ, if any.
+  DrawnCases(const Collection& collection, const Overview& of_all, const std::vector<std::string>& keys,
+             const std::vector<std::string>& monitors);
 
   void add(const Case& one, const CaseResult& result);
 
@@ -70,6 +73,7 @@ class DrawnCases {
   MapPoint point(const One& one, std::size_t load, std::size_t first_noted) const;
   MapPoint point(const std::pair<Json, Json>& at, const Mean& mean, std::size_t load) const;
   std::string note(const One& one, std::size_t first) const;
+  MapTitles titles_of(std::size_t load) const;
   void add_curve(const Case& one, const CaseResult& result);
 
   const Collection& collection_;

@@ -146,7 +146,9 @@ bool has_lines(const LoadLines& lines) {
 std::string lines_svg(const LoadLines& lines) { return chart(lines, Measure::load, load_axis(lines.titles)); }
 
 std::string knockdown_svg(const LoadLines& lines) {
-  return chart(lines, Measure::part_of_reference, "λ/λ₀" + lines.titles.load.substr(lines.titles.load.find(' ')));
+  const std::size_t name = lines.titles.load.find(' ');
+  const std::string of = lines.titles.load.substr(0, name);
+  return chart(lines, Measure::part_of_reference, of + "/" + of + "₀" + lines.titles.load.substr(name));
 }
 
 std::string panels_svg(const LoadLines& lines) {
