@@ -128,33 +128,52 @@ deck::Deck with_stiffer_springs(deck::Deck deck) {
   return deck;
 }
 
-void compare(const Convergence& study, ConvergedEvent& of) {
+void compare(const Convergence& study, bool has_stiffer, ConvergedValue& of) {
   std::vector<double> values;
-  for (const auto& lambda : of.lambda)
-    if (lambda) values.push_back(*lambda);
-  const bool gaps = std::adjacent_find(of.lambda.begin(), of.lambda.end(), [](const auto& a, const auto& b) {
+  for (const auto& value : of.on_mesh)
+    if (value) values.push_back(*value);
+  if (values.empty()) return;
+  const bool gaps = std::adjacent_find(of.on_mesh.begin(), of.on_mesh.end(), [](const auto& a, const auto& b) {
                       return a.has_value() && !b.has_value();
-                    }) != of.lambda.end();
-  const double unsure = std::max(of.lambda_uncertainty, roundoff * std::abs(values.back()));
+                    }) != of.on_mesh.end();
+  const double unsure = std::max(of.uncertainty, roundoff * std::abs(values.back()));
   if (gaps) {
     of.limit = {.value = values.back(), .irregular = "not on every finer mesh"};
   } else {
     of.limit = extrapolated(values, study.factor, unsure);
   }
   if (of.penalty && of.limit.error) *of.limit.error += *of.penalty;
+  if (has_stiffer && !of.penalty) {  // how far the springs give way is not known
+    of.limit.error.reset();
+    if (of.limit.irregular.empty()) of.limit.irregular = "not with stiffer springs";
+  }
+  if (const auto& own = of.on_mesh[study.own_mesh]; own && of.limit.error)
+    of.error_of_deck = std::abs(of.limit.value - *own) + *of.limit.error;
 }
 
 // One event with all that match it; `of` is the mesh that has it.
 ConvergedEvent gathered(const Convergence& study, std::size_t of, std::size_t event,
                         const std::vector<std::vector<std::optional<std::size_t>>>& on) {
   ConvergedEvent one{.event = study.meshes[of].record.events[event]};
-  one.lambda.resize(study.meshes.size());
-  for (std::size_t mesh = 0; mesh < study.meshes.size(); ++mesh) {
+  const std::size_t meshes = study.meshes.size();
+  one.lambda.on_mesh.resize(meshes);
+  one.monitors.resize(one.event.monitors.size());
+  for (ConvergedValue& monitor : one.monitors) monitor.on_mesh.resize(meshes);
+  for (std::size_t mesh = 0; mesh < meshes; ++mesh) {
     const auto index = mesh == of ? std::optional(event) : mesh < of ? on[mesh][event] : std::nullopt;
     if (!index) continue;
-    const RecordEvent& same = study.meshes[mesh].record.events[*index];
-    one.lambda[mesh] = same.lambda;
-    one.lambda_uncertainty = std::max(one.lambda_uncertainty, same.lambda_uncertainty);
+    const Record& record = study.meshes[mesh].record;
+    const RecordEvent& same = record.events[*index];
+    const Ranges ranges = ranges_of(record);
+    one.lambda.on_mesh[mesh] = same.lambda;
+    one.lambda.uncertainty = std::max(one.lambda.uncertainty, same.lambda_uncertainty);
+    for (std::size_t i = 0; i < one.monitors.size(); ++i) {
+      if (!std::isfinite(same.monitors[i])) continue;
+      // A monitor is as uncertain as λ, as a part of its range, and its round-off is that of the range.
+      const double part = same.lambda_uncertainty / ranges.lambda + roundoff;
+      one.monitors[i].on_mesh[mesh] = same.monitors[i];
+      one.monitors[i].uncertainty = std::max(one.monitors[i].uncertainty, part * ranges.monitors[i]);
+    }
   }
   return one;
 }
@@ -217,16 +236,18 @@ void compare_events(Convergence& study, const std::optional<Record>& stiffer) {
   const auto on_stiffer = stiffer ? matched(own, *stiffer) : std::vector<std::optional<std::size_t>>();
   for (ConvergedEvent& one : study.events) {
     for (std::size_t i = 0; stiffer && i < own.events.size(); ++i)
-      if (own.events[i].kind == one.event.kind && own.events[i].lambda == one.lambda[study.own_mesh] && on_stiffer[i])
-        one.penalty = std::abs(stiffer->events[*on_stiffer[i]].lambda - own.events[i].lambda) /
-                      (1.0 - 1.0 / stiffer_springs);  // it goes with one over the stiffness
-    compare(study, one);
-    if (stiffer && !one.penalty) {  // how far the springs give way is not known
-      one.limit.error.reset();
-      if (one.limit.irregular.empty()) one.limit.irregular = "not with stiffer springs";
-    }
-    if (const auto& own_lambda = one.lambda[study.own_mesh]; own_lambda && one.limit.error)
-      one.error_of_deck = std::abs(one.limit.value - *own_lambda) + *one.limit.error;
+      if (own.events[i].kind == one.event.kind && own.events[i].lambda == one.lambda.on_mesh[study.own_mesh] &&
+          on_stiffer[i]) {
+        const RecordEvent& there = stiffer->events[*on_stiffer[i]];
+        const auto penalty = [](double soft, double stiff) {  // it goes with one over the stiffness
+          return std::abs(stiff - soft) / (1.0 - 1.0 / stiffer_springs);
+        };
+        one.lambda.penalty = penalty(own.events[i].lambda, there.lambda);
+        for (std::size_t k = 0; k < one.monitors.size(); ++k)
+          one.monitors[k].penalty = penalty(own.events[i].monitors[k], there.monitors[k]);
+      }
+    compare(study, stiffer.has_value(), one.lambda);
+    for (ConvergedValue& monitor : one.monitors) compare(study, stiffer.has_value(), monitor);
   }
 }
 
@@ -261,6 +282,7 @@ std::optional<Convergence> converge(const deck::Deck& deck, const MeshStudy& stu
     found.notes.emplace_back(
         "Walls are springs: the error includes their compression, from a run with springs ten times as stiff.");
   }
+  found.columns = found.meshes.back().record.columns;
   compare_events(found, stiffer);
   return found;
 }

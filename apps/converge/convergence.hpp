@@ -19,22 +19,29 @@ struct MeshRun {
   Record record{};
 };
 
+/// λ or a monitor of an event.
+struct ConvergedValue {
+  std::vector<std::optional<double>> on_mesh{};  ///< by mesh; empty where no event matches, or where it is infinite
+  double uncertainty = 0.0;                      ///< the greatest of the meshes
+  std::optional<double> penalty{};               ///< how far springs as walls give way to it; only with those
+  Extrapolation limit{};
+  std::optional<double> error_of_deck{};  ///< on the deck's own mesh; empty where it has no such event
+};
+
 /// An event on the finest mesh that has it, with what the other meshes say of it.
 struct ConvergedEvent {
   RecordEvent event{};
-  Index number = 1;                             ///< among those of its kind on its mesh, in their order
-  std::vector<std::optional<double>> lambda{};  ///< by mesh; empty where no event matches
-  double lambda_uncertainty = 0.0;              ///< the greatest of the meshes
-  std::optional<double> penalty{};              ///< how far springs as walls give way to it; only with those
-  Extrapolation limit{};
-  std::optional<double> error_of_deck{};  ///< of λ on the deck's own mesh; empty where it has no such event
+  Index number = 1;  ///< among those of its kind on its mesh, in their order
+  ConvergedValue lambda{};
+  std::vector<ConvergedValue> monitors{};  ///< in the order of the columns; empty values where one is known on no mesh
 };
 
 /// How sure the events of a deck are.
 struct Convergence {
   std::string deck{};  ///< file name without folder
   std::string title{};
-  std::vector<std::string> members{};  ///< their names
+  std::vector<std::string> members{};   ///< their names
+  std::vector<RecordColumn> columns{};  ///< the monitors
   double factor = 2.0;
   std::size_t own_mesh = 0;              ///< number of the deck's own mesh
   std::vector<MeshRun> meshes{};         ///< from coarse to fine

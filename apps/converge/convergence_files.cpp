@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/output/events_json.hpp"
@@ -39,21 +40,35 @@ OrderedJson mesh_json(const Convergence& study, const MeshRun& mesh) {
   return json;
 }
 
-OrderedJson event_json(const ConvergedEvent& one) {
-  OrderedJson values = OrderedJson::array();
-  for (const auto& lambda : one.lambda) values.push_back(number(lambda));
+// `uncertainty` and the values by mesh have names of their own for λ.
+OrderedJson value_json(const ConvergedValue& one, const char* values, const char* uncertainty) {
   OrderedJson json;
-  json["kind"] = to_text(one.event.kind);
-  json["number"] = one.number;
-  json["what"] = event_detail(one.event);
-  json["lambda"] = std::move(values);
+  json[values] = OrderedJson::array();
+  for (const auto& value : one.on_mesh) json[values].push_back(number(value));
   json["order"] = number(one.limit.order);
   json["irregular"] = one.limit.irregular.empty() ? OrderedJson(nullptr) : OrderedJson(one.limit.irregular);
   json["extrapolated"] = number(one.limit.value);
   json["error"] = number(one.limit.error);
-  json["lambda_uncertainty"] = number(one.lambda_uncertainty);
+  json[uncertainty] = number(one.uncertainty);
   if (one.penalty) json["penalty"] = number(one.penalty);
   json["error_of_deck"] = number(one.error_of_deck);
+  return json;
+}
+
+bool is_known(const ConvergedValue& one) {
+  return std::any_of(one.on_mesh.begin(), one.on_mesh.end(), [](const auto& value) { return value.has_value(); });
+}
+
+OrderedJson event_json(const Convergence& study, const ConvergedEvent& one) {
+  OrderedJson json;
+  json["kind"] = to_text(one.event.kind);
+  json["number"] = one.number;
+  json["what"] = event_detail(one.event);
+  json.update(value_json(one.lambda, "lambda", "lambda_uncertainty"));
+  json["monitors"] = OrderedJson::object();
+  for (std::size_t i = 0; i < one.monitors.size(); ++i)
+    if (is_known(one.monitors[i]))
+      json["monitors"][study.columns[i].name] = value_json(one.monitors[i], "values", "uncertainty");
   return json;
 }
 
@@ -74,23 +89,36 @@ std::string mesh_table(const Convergence& study) {
   return text_table({figure("mesh"), {"elements"}, figure("points"), {"ended"}}, rows);
 }
 
-std::string event_table(const Convergence& study) {
-  std::vector<TableColumn> columns{{"kind"}, figure("no."), {"what"}};
+void add_cells(const ConvergedValue& one, std::vector<std::string>& row) {
+  for (const auto& value : one.on_mesh) row.push_back(value ? shown_number(*value, 10) : "none");
+  row.push_back(one.limit.order ? shown_number(*one.limit.order, 3) : "");
+  row.push_back(shown_number(one.limit.value, 10));
+  row.push_back(one.limit.error ? shown_number(*one.limit.error, 2) : "unknown");
+  row.push_back(one.error_of_deck ? shown_number(*one.error_of_deck, 2) : "");
+  row.push_back(one.limit.irregular);
+}
+
+// Of λ, or of the monitors.
+enum class Tabulated { lambda, monitors };
+
+std::string event_table(const Convergence& study, Tabulated what) {
+  const bool of_monitors = what == Tabulated::monitors;
+  std::vector<TableColumn> columns{{"kind"}, figure("no."), {of_monitors ? "monitor" : "what"}};
   for (const MeshRun& mesh : study.meshes) columns.push_back(figure(times_text(mesh.times)));
-  for (const char* title : {"order", "λ", "± error", "± deck mesh"}) columns.push_back(figure(title));
+  for (const char* title : {"order", of_monitors ? "value" : "λ", "± error", "± deck mesh"})
+    columns.push_back(figure(title));
   columns.push_back({"irregular"});
   std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const ConvergedEvent& one, const std::string& which, const ConvergedValue& value) {
+    add_cells(value, rows.emplace_back(std::vector<std::string>{std::string(to_text(one.event.kind)),
+                                                                std::to_string(one.number), which}));
+  };
   for (const ConvergedEvent& one : study.events) {
-    std::vector<std::string>& row = rows.emplace_back();
-    row = {std::string(to_text(one.event.kind)), std::to_string(one.number), event_detail(one.event)};
-    for (const auto& lambda : one.lambda) row.push_back(lambda ? shown_number(*lambda, 10) : "none");
-    row.push_back(one.limit.order ? shown_number(*one.limit.order, 3) : "");
-    row.push_back(shown_number(one.limit.value, 10));
-    row.push_back(one.limit.error ? shown_number(*one.limit.error, 2) : "unknown");
-    row.push_back(one.error_of_deck ? shown_number(*one.error_of_deck, 2) : "");
-    row.push_back(one.limit.irregular);
+    if (!of_monitors) add(one, event_detail(one.event), one.lambda);
+    for (std::size_t i = 0; of_monitors && i < one.monitors.size(); ++i)
+      if (is_known(one.monitors[i])) add(one, study.columns[i].name, one.monitors[i]);
   }
-  return text_table(columns, rows);
+  return rows.empty() ? "" : text_table(columns, rows);
 }
 
 // The file of an earlier study; null where it is none that can be read, or of another deck.
@@ -119,7 +147,7 @@ OrderedJson convergence_json(const Convergence& study, const StudiedDeck& of) {
   json["meshes"] = OrderedJson::array();
   for (const MeshRun& mesh : study.meshes) json["meshes"].push_back(mesh_json(study, mesh));
   json["events"] = OrderedJson::array();
-  for (const ConvergedEvent& one : study.events) json["events"].push_back(event_json(one));
+  for (const ConvergedEvent& one : study.events) json["events"].push_back(event_json(study, one));
   return json;
 }
 
@@ -130,9 +158,11 @@ std::string convergence_text(const Convergence& study) {
   for (const std::string& note : study.notes) text += printable(note) + "\n";
   if (!study.notes.empty()) text += "\n";
   if (study.events.empty()) return text + "No mesh has an event.\n";
-  return text + event_table(study) +
-         "\nλ is extrapolated where the order is known, else that of the finest mesh; ± deck mesh is the error on "
-         "the deck's mesh.\n";
+  text += event_table(study, Tabulated::lambda) +
+          "\nλ is extrapolated where the order is known, else that of the finest mesh; ± deck mesh is the error on "
+          "the deck's mesh.\n";
+  const std::string monitors = event_table(study, Tabulated::monitors);
+  return text + (monitors.empty() ? "" : "\nMonitors at the events\n\n" + monitors);
 }
 
 std::string error_bars_text(const std::filesystem::path& folder, const Record& record, const StudiedDeck& of) {

@@ -31,7 +31,7 @@ from .event_curves import CurveSpecial, EventCurve, WorstCombination
 from .events import Branch, Contact, Continuum, End, Event, Events, Found, Jump, JumpContact, Point, Return, Search
 from .path import Path, State, Tracing, load
 from .shapes import ContactMark, MemberShape, Shape, WallShape
-from .studies import ConvergedEvent, Convergence
+from .studies import ConvergedEvent, ConvergedMonitor, Convergence
 from .systems import Detector, System, SystemPath, trace
 
 __all__ = [
@@ -45,6 +45,7 @@ __all__ = [
     "ContactMark",
     "Continuum",
     "ConvergedEvent",
+    "ConvergedMonitor",
     "Convergence",
     "Curve",
     "CurveSpecial",

@@ -3,13 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = ["ConvergedEvent", "Convergence"]
+__all__ = ["ConvergedEvent", "ConvergedMonitor", "Convergence"]
+
+
+@dataclass(frozen=True)
+class ConvergedMonitor:
+    """Monitor at an event on several meshes, as in ``convergence.json``.
+
+    Examples
+    --------
+    >>> event = arcwall.Deck.load("truss.toml").converge(levels=2).events[0]
+    >>> len(event.monitors["w"].values)
+    2
+    """
+
+    values: tuple[float | None, ...]  #: value for each mesh, coarsest first; None if the mesh has no such event
+    order: float | None  #: convergence order with the element length; None if irregular
+    irregular: str | None  #: why no order was determined; None if it was
+    extrapolated: float  #: extrapolated value, or that of the finest mesh without an order
+    error: float | None  #: half-width of the error bar of ``extrapolated``; None if unknown
+    error_of_deck: float | None  #: mesh error on the deck's own mesh; None if unknown
 
 
 @dataclass(frozen=True)
@@ -32,6 +51,7 @@ class ConvergedEvent:
     extrapolated: float  #: extrapolated λ, or λ of the finest mesh without an order
     error: float | None  #: half-width of the error bar of ``extrapolated``; None if unknown
     error_of_deck: float | None  #: mesh error of λ on the deck's own mesh; None if unknown
+    monitors: Mapping[str, ConvergedMonitor] = field(default_factory=dict)  #: the same of the monitors, by name
 
 
 class Convergence:
@@ -61,6 +81,17 @@ class Convergence:
                 extrapolated=one["extrapolated"],
                 error=one["error"],
                 error_of_deck=one["error_of_deck"],
+                monitors={
+                    name: ConvergedMonitor(
+                        values=tuple(of["values"]),
+                        order=of["order"],
+                        irregular=of["irregular"],
+                        extrapolated=of["extrapolated"],
+                        error=of["error"],
+                        error_of_deck=of["error_of_deck"],
+                    )
+                    for name, of in one["monitors"].items()
+                },
             )
             for one in json["events"]
         )
@@ -70,7 +101,7 @@ class Convergence:
         """Events as a new pandas DataFrame, one row each; needs pandas."""
         import pandas as pd
 
-        return pd.DataFrame([vars(event) for event in self.events])
+        return pd.DataFrame([{k: v for k, v in vars(event).items() if k != "monitors"} for event in self.events])
 
     def __str__(self) -> str:
         return self._text

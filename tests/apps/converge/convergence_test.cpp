@@ -74,14 +74,14 @@ TEST(Convergence, OfLeesFrameHoldsTheTruth) {
   EXPECT_EQ(study->meshes[2].elements, (std::vector<int>{40, 8, 32}));
   for (const auto& [number, truth] : {std::pair(Index{1}, 1.85567275376), std::pair(Index{2}, -0.94144315556)}) {
     const ConvergedEvent& limit = only(*study, EventKind::limit_point, number);
-    EXPECT_NEAR(limit.limit.order.value(), 4.0, 0.3);
-    EXPECT_LE(std::abs(limit.limit.value - truth), limit.limit.error.value());
-    EXPECT_LE(limit.limit.error.value(), 1e-5);
-    EXPECT_LE(std::abs(limit.lambda[1].value() - truth), limit.error_of_deck.value());
-    EXPECT_LE(limit.error_of_deck.value(), 20.0 * std::abs(limit.lambda[1].value() - truth));
+    EXPECT_NEAR(limit.lambda.limit.order.value(), 4.0, 0.3);
+    EXPECT_LE(std::abs(limit.lambda.limit.value - truth), limit.lambda.limit.error.value());
+    EXPECT_LE(limit.lambda.limit.error.value(), 1e-5);
+    EXPECT_LE(std::abs(limit.lambda.on_mesh[1].value() - truth), limit.lambda.error_of_deck.value());
+    EXPECT_LE(limit.lambda.error_of_deck.value(), 20.0 * std::abs(limit.lambda.on_mesh[1].value() - truth));
   }
   for (const ConvergedEvent& one : study->events)
-    for (const auto& lambda : one.lambda) EXPECT_TRUE(lambda.has_value());
+    for (const auto& lambda : one.lambda.on_mesh) EXPECT_TRUE(lambda.has_value());
 }
 
 // What cannot be halved begins with the deck's own mesh and says so.
@@ -114,11 +114,11 @@ member.c = { from = "A", to = "B", theory = "euler-bernoulli", elements = 8, mat
   ASSERT_TRUE(study);
   ASSERT_GE(study->events.size(), 2U);
   EXPECT_EQ(study->notes.size(), 1U);
-  EXPECT_NEAR(study->events[0].penalty.value(), 0.0, 1e-9);
+  EXPECT_NEAR(study->events[0].lambda.penalty.value(), 0.0, 1e-9);
   const ConvergedEvent& second = study->events[1];
-  EXPECT_GT(second.penalty.value(), 1e-5);
-  EXPECT_GE(second.limit.error.value(), second.penalty.value());
-  for (const ConvergedEvent& one : study->events) EXPECT_TRUE(one.penalty || !one.limit.error);
+  EXPECT_GT(second.lambda.penalty.value(), 1e-5);
+  EXPECT_GE(second.lambda.limit.error.value(), second.lambda.penalty.value());
+  for (const ConvergedEvent& one : study->events) EXPECT_TRUE(one.lambda.penalty || !one.lambda.limit.error);
 }
 
 // Bars have one element on every mesh, and so no error of the mesh.
@@ -127,9 +127,9 @@ TEST(Convergence, LeavesBarsWhole) {
   ASSERT_TRUE(study);
   for (const MeshRun& mesh : study->meshes) EXPECT_EQ(mesh.elements, (std::vector<int>{1, 1}));
   const ConvergedEvent& limit = only(*study, EventKind::limit_point, 1);
-  EXPECT_FALSE(limit.limit.order);
-  EXPECT_TRUE(limit.limit.irregular.empty());
-  EXPECT_LT(limit.limit.error.value(), 1e-9);
+  EXPECT_FALSE(limit.lambda.limit.order);
+  EXPECT_TRUE(limit.lambda.limit.irregular.empty());
+  EXPECT_LT(limit.lambda.limit.error.value(), 1e-9);
 }
 
 // An event that one path has and the other has not leaves those behind it in their places.
