@@ -81,6 +81,11 @@ std::optional<FollowedEvent> followed(const System& system, const FoundEvent& fo
     if (point.multiplicity > 1) return refuse(several_modes);
     return FollowedEvent{.criterion = Criterion::crossing};
   }
+  if (event.kind == EventKind::value_crossing) {
+    if (at_change || found.arc.events.size() > 1)
+      return refuse("another event lies at the same point; watch another value");
+    return FollowedEvent{.criterion = Criterion::value, .value = *event.value};
+  }
   if (at_change) {
     FollowedEvent contact{.criterion = Criterion::guard, .guards = vanishing_guards(system, found)};
     if (contact.guards.empty())
@@ -99,7 +104,7 @@ double CurveReader::crossing_value(const State& state) const {
   if (!along) return std::nan("");
   const Metric metric = system_.metric_of(*member);
   if (system_.event().criterion == Criterion::guard) return along->dlambda / metric.lambda_scale();
-  if (member->turning) return 1.0;
+  if (member->watched) return 1.0;
   Beside sides(*member, metric, factorization());
   SideCounts counts;
   const auto before = sides.nearest_product(*along, -beside, counts.before);
@@ -124,6 +129,7 @@ CurvePoint CurveReader::read_off(const PathPoint& at, SideCounts& counts) const 
   for (const MonitorColumn& column : model->monitors()) point.monitors.push_back(column.quantity->value(member->state));
   const double slope = EventSystem::lambda_rate(state, at.tangent) / at.tangent.dlambda;
   if (std::isfinite(slope)) point.slope = slope;
+  point.slopes = monitor_slopes(at);
   count_sides(state, *member, counts);
   point.unstable_before = counts.before;
   point.unstable_after = counts.after;
@@ -131,6 +137,27 @@ CurvePoint CurveReader::read_off(const PathPoint& at, SideCounts& counts) const 
   add_scenery(*model, member->state, point);
   point.state = system_.in_common_terms(state);
   return point;
+}
+
+// dm/dκ of the monitors along the curve: states that follow its tangent to the samples' values of κ.
+std::vector<std::optional<double>> CurveReader::monitor_slopes(const PathPoint& at) const {
+  const State& state = at.state;
+  const State event = system_.in_common_terms(state);
+  const std::size_t count = family_.own().monitors().size();
+  std::vector<std::optional<double>> slopes(count);
+  const Index n = event.x.size();
+  const Direction motion{.dx = at.tangent.dx.head(n) / at.tangent.dlambda,
+                         .dlambda = EventSystem::lambda_rate(state, at.tangent) / at.tangent.dlambda};
+  if (!motion.dx.allFinite() || !std::isfinite(motion.dlambda)) return slopes;
+  std::vector<double> sums(count, 0.0);
+  for (const WeightedMember& sample : system_.samples(event, state.lambda)) {
+    const State there = moved(sample.member.state, motion, sample.kappa - state.lambda);
+    const std::vector<MonitorColumn>& monitors = family_.model(sample.kappa)->monitors();
+    for (std::size_t i = 0; i < count; ++i) sums[i] += sample.weight * monitors[i].quantity->value(there);
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    if (std::isfinite(sums[i]) && !family_.own().monitors()[i].is_place) slopes[i] = sums[i];
+  return slopes;
 }
 
 std::optional<SideCounts> CurveReader::counted(const State& state) const {

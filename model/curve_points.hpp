@@ -35,6 +35,7 @@ class CurveReader {
   double crossing_value(const State& state) const;
 
  private:
+  std::vector<std::optional<double>> monitor_slopes(const PathPoint& at) const;
   std::optional<SideCounts> counted(const State& state) const;
   void count_sides(const State& state, const SystemFamily::Member& member, SideCounts& counts) const;
   const MakeFactorization& factorization() const { return family_.own().options().factorization; }

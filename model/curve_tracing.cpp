@@ -92,12 +92,18 @@ CurveTracing::~CurveTracing() = default;
 
 // --- the event of the path ------------------------------------------------------------------------------------------
 
+namespace {
+
+bool is_watched(EventKind kind) { return kind == EventKind::turning_point || kind == EventKind::value_crossing; }
+
+}  // namespace
+
 void CurveTracing::take_event(const FoundEvent& found) {
   const auto event = followed(family_.own().system(), found, problem_);
   if (!event) return;
   const double first = std::abs(family_.own().options().step.first);
   followed_ = {.event = *event,
-               .turning = asked().event == EventKind::turning_point ? found.event.label : "",
+               .watched = is_watched(asked().event) ? found.event.label : "",
                .lambda_scale = std::max(std::abs(found.event.state.lambda), first),
                .counts = {found.event.unstable_before, found.event.unstable_after}};
   make_system();
@@ -109,7 +115,7 @@ void CurveTracing::take_event(const FoundEvent& found) {
 }
 
 void CurveTracing::make_system() {
-  if (!followed_.turning.empty()) family_.set_turning(followed_.turning);
+  if (!followed_.watched.empty()) family_.set_watched(followed_.watched);
   system_ = std::make_unique<EventSystem>(family_, followed_.event, followed_.lambda_scale,
                                           family_.own().options().factorization);
   reader_ = std::make_unique<CurveReader>(family_, *system_);
@@ -186,7 +192,10 @@ bool CurveTracing::advance_side() {
   for (const Event& event : arc->events)
     if (event.kind == EventKind::limit_point || event.kind == EventKind::user)
       side().specials.push_back(special(event, side().points.size()));
-  if (!arc->events.empty() && arc->events.back().kind == EventKind::limit_point) point.slope.reset();
+  if (!arc->events.empty() && arc->events.back().kind == EventKind::limit_point) {
+    point.slope.reset();
+    for (std::optional<double>& slope : point.slopes) slope.reset();
+  }
   side().points.push_back(std::move(point));
   return true;
 }
@@ -269,8 +278,8 @@ constexpr std::int64_t greatest(CurveSpecialKind) { return static_cast<std::int6
 // Without what pictures show, which follows from the state.
 template <typename Archive>
 void parts(Archive& archive, CurvePoint& point) {
-  archive(point.arc, point.key, point.lambda, point.monitors, point.slope, point.unstable_before, point.unstable_after,
-          point.contacts, point.state);
+  archive(point.arc, point.key, point.lambda, point.monitors, point.slope, point.slopes, point.unstable_before,
+          point.unstable_after, point.contacts, point.state);
 }
 
 template <typename Archive>
@@ -280,7 +289,7 @@ void parts(Archive& archive, CurveSpecial& special) {
 
 template <typename Archive>
 void CurveTracing::Followed::serialize(Archive& archive) {
-  archive(event.criterion, event.guards, turning, lambda_scale, counts.before, counts.after);
+  archive(event.criterion, event.guards, event.value, watched, lambda_scale, counts.before, counts.after);
 }
 
 // That points and specials belong together, and what follows from the points alone.
@@ -288,7 +297,7 @@ bool CurveTracing::complete(Side& side) const {
   const std::size_t monitors = family_.own().monitors().size();
   for (CurvePoint& point : side.points) {
     const auto member = family_.at(point.key, point.state);
-    if (!member || point.monitors.size() != monitors) return false;
+    if (!member || point.monitors.size() != monitors || point.slopes.size() != monitors) return false;
     add_scenery(*family_.model(point.key), member->state, point);
   }
   return std::all_of(side.specials.begin(), side.specials.end(),

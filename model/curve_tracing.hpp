@@ -61,7 +61,7 @@ class CurveTracing {
   // How the event is followed, as plain values.
   struct Followed {
     FollowedEvent event{};
-    std::string turning{};  // the monitor of a displacement limit
+    std::string watched{};  // what turns or passes a value there, if anything
     double lambda_scale = 1.0;
     SideCounts counts{};  // at the event
 

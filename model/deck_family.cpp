@@ -69,9 +69,7 @@ std::optional<SystemFamily::Member> DeckFamily::at(double kappa, const State& st
   }
   Member member{.system = std::shared_ptr<const System>(one.model, &one.model->system()),
                 .state = {.x = state.x, .lambda = state.lambda, .active_set = one.own}};
-  if (!turning_.empty())
-    for (const Watch& watch : one.model->watched())
-      if (watch.label == turning_) member.turning = watch.quantity;
+  if (!watched_.empty()) member.watched = one.model->quantity(watched_);
   return member;
 }
 

@@ -31,8 +31,8 @@ class DeckFamily final : public SystemFamily {
   const std::string& problem() const { return problem_; }
   void recall_problem(std::string problem) const { problem_ = std::move(problem); }
 
-  /// The watched monitor of a displacement limit, which members have from then on.
-  void set_turning(std::string monitor) { turning_ = std::move(monitor); }
+  /// What turns or passes a value at the event, a monitor or `lambda`, which members have from then on.
+  void set_watched(std::string name) { watched_ = std::move(name); }
 
   std::optional<Member> at(double kappa, const State& state) const override;
   std::optional<State> in_common_terms(const State& state) const override;
@@ -46,7 +46,7 @@ class DeckFamily final : public SystemFamily {
   deck::Deck deck_;
   std::string text_;  // of the deck
   deck::DeckNumber number_;
-  std::string turning_;
+  std::string watched_;
   std::shared_ptr<const Model> own_;
   double spacing_ = 0.0;
   mutable std::list<Kept> kept_;  // the last one asked for first

@@ -43,6 +43,8 @@ void require_curve(const deck::Deck& deck) {
     add("curve", "events that are not located are not followed", "write events = \"locate\"");
   if (curve.event == EventKind::turning_point && deck.path.watch.empty())
     add("curve.event", "no monitor is watched, so that none turns", "add watch = [\"MONITOR\"] to [path]");
+  if (curve.event == EventKind::value_crossing && deck.path.watch_zero.empty() && deck.path.watch_values.empty())
+    add("curve.event", "no value is watched, so that none is passed", "add watch = { zero = [\"MONITOR\"] } to [path]");
   const auto number = deck::number_of(deck, curve.parameter);
   if (const auto* const found = std::get_if<deck::DeckNumber>(&number); found != nullptr && !curve.parameter.empty())
     if (found->value < curve.range[0] || found->value > curve.range[1])

@@ -19,7 +19,8 @@ struct CurvePoint {
   double key = 0.0;     ///< the number of the deck
   double lambda = 0.0;  ///< of the event
   std::vector<double> monitors{};
-  std::optional<double> slope{};  ///< dλ/dkey; empty at a cusp
+  std::optional<double> slope{};                ///< dλ/dkey; empty at a cusp
+  std::vector<std::optional<double>> slopes{};  ///< the same of the monitors
   std::optional<Index> unstable_before{}, unstable_after{};
   Index contacts = 0;  ///< closed
   Shape shape{};

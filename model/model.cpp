@@ -152,6 +152,12 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
       contact_ && !sliding_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
 }
 
+std::shared_ptr<const Observable> Model::quantity(const std::string& name) const {
+  if (name == "lambda") return std::make_shared<ParameterValue>();
+  const MonitorColumn* const column = deck::find(monitors_, name);
+  return column != nullptr ? column->quantity : nullptr;
+}
+
 // Springs for what nothing but contact holds are part of the deck that is traced.
 bool Model::hold_loose_bodies() {
   DeckProblems mechanism(deck_->source);

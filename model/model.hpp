@@ -91,6 +91,9 @@ class Model {
 
   const std::vector<MonitorColumn>& monitors() const { return monitors_; }
 
+  /// Returns λ or the monitor of that name; null if there is none.
+  std::shared_ptr<const Observable> quantity(const std::string& name) const;
+
   /// Returns the number of unstable directions under load control: the prescribed displacements are free and their
   /// reactions are constant. Empty if λ moves no support, or if the number is indeterminate.
   std::optional<Index> unstable_under_dead_load(const PathPoint& point) const;

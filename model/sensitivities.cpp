@@ -35,14 +35,9 @@ std::optional<double> end_of_stage(const deck::Deck& deck, const deck::Deck& var
 
 // What turns or passes a value at an event; null at others.
 std::shared_ptr<const Observable> watched_of(const Model& model, const Event& event) {
-  if (event.kind == EventKind::limit_point) return std::make_shared<ParameterValue>();
-  if (event.kind == EventKind::turning_point)
-    for (const Watch& watch : model.watched())
-      if (watch.label == event.label) return watch.quantity;
-  if (event.kind == EventKind::value_crossing)
-    for (const TargetValue& target : model.options().target_values)
-      if (target.event == event.label) return target.quantity;
-  return nullptr;
+  if (event.kind == EventKind::limit_point) return model.quantity("lambda");
+  const bool is_watched = event.kind == EventKind::turning_point || event.kind == EventKind::value_crossing;
+  return is_watched ? model.quantity(event.label) : nullptr;
 }
 
 std::vector<std::shared_ptr<const Observable>> quantities_of(const Model& model) {

@@ -63,14 +63,18 @@ std::string followed_event(const EventCurve& curve) {
 std::string curve_csv(const EventCurve& curve, UnitLabels labels) {
   std::string text = "point,arc," + csv_title("key", curve.key_unit, labels) + ",lambda";
   for (const RecordColumn& column : curve.columns) text += "," + csv_title(column.name, column.unit, labels);
-  text += ",slope,unstable_before,unstable_after,contacts\n";
+  text += ",slope,unstable_before,unstable_after,contacts";
+  for (const RecordColumn& column : curve.columns) text += ",slope-" + column.name;
+  text += "\n";
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const CurvePoint& point = curve.points[i];
     text +=
         std::to_string(i) + "," + round_trip(point.arc) + "," + round_trip(point.key) + "," + round_trip(point.lambda);
     for (const double value : point.monitors) text += "," + round_trip(value);
     text += "," + cell(point.slope) + "," + cell(point.unstable_before) + "," + cell(point.unstable_after) + "," +
-            std::to_string(point.contacts) + "\n";
+            std::to_string(point.contacts);
+    for (const std::optional<double>& slope : point.slopes) text += "," + cell(slope);
+    text += "\n";
   }
   return text;
 }

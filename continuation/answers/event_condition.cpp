@@ -176,19 +176,19 @@ std::optional<std::vector<EventEquation>> turning_equation(const SystemFamily::M
                                                            BorderedMatrix& A, std::vector<WeightedMember>& samples,
                                                            const Metric& metric) {
   Row gradient{.dx = Vector::Zero(at.state.x.size()), .dlambda = 1.0};
-  if (at.turning) gradient = at.turning->gradient(at.state);
+  if (at.watched) gradient = at.watched->gradient(at.state);
   auto t = A.solve(Vector::Zero(at.state.x.size()), 1.0);
   const auto P = A.solve_transposed(border.scale * gradient.dx, border.scale * gradient.dlambda);
   if (!t || !P) return std::nullopt;
   EventEquation equation = equation_of({.value = border.scale * apply(gradient, *t), .w = P->dx, .d = *t}, at,
                                        equations_of(samples, Differences::simple), metric, Differences::simple);
-  if (at.turning) {
+  if (at.watched) {
     add(equation.row, border.scale,
         rows_differenced_along(metric, at.state, *t, Differences::simple,
-                               [&](const State& state) { return at.turning->gradient(state); }));
+                               [&](const State& state) { return at.watched->gradient(state); }));
     for (const WeightedMember& sample : samples)
       equation.by_kappa +=
-          border.scale * sample.weight * apply(sample.member.turning->gradient(sample.member.state), *t);
+          border.scale * sample.weight * apply(sample.member.watched->gradient(sample.member.state), *t);
   }
   return std::vector{std::move(equation)};
 }
@@ -270,7 +270,7 @@ std::optional<EventBorder> event_border(Criterion criterion, const SystemFamily:
   Corrector corrector(*at.system, {}, metric.lambda_scale(), make);
   Direction along{.dx = Vector::Zero(at.state.x.size()), .dlambda = 1.0};
   if (before != nullptr) along = *before;
-  if (criterion == Criterion::crossing || (criterion == Criterion::turning && !at.turning)) {
+  if (criterion == Criterion::crossing || (criterion == Criterion::turning && !at.watched)) {
     const auto pair = critical_pair(corrector, at, metric);
     if (!pair) return std::nullopt;
     const bool crosses = criterion == Criterion::crossing;
@@ -288,8 +288,19 @@ std::optional<EventBorder> event_border(Criterion criterion, const SystemFamily:
   const CorrectorResult here = corrector.inspect(at.state, metric, along);
   if (!here.converged()) return std::nullopt;
   EventBorder border{.row = metric.row(here.tangent), .scale = 1.0 / metric.lambda_scale()};
-  if (at.turning) border.scale = 1.0 / std::max(metric.dual_norm(at.turning->gradient(at.state)), 1e-300);
+  if (at.watched) border.scale = 1.0 / std::max(metric.dual_norm(at.watched->gradient(at.state)), 1e-300);
   return border;
+}
+
+EventEquation passed_value(const SystemFamily::Member& at, double value, const EventBorder& border,
+                           const std::vector<WeightedMember>& samples) {
+  EventEquation equation{.value = border.scale * (at.watched->value(at.state) - value),
+                         .row = at.watched->gradient(at.state)};
+  equation.row.dx *= border.scale;
+  equation.row.dlambda *= border.scale;
+  for (const WeightedMember& sample : samples)
+    equation.by_kappa += border.scale * sample.weight * sample.member.watched->value(sample.member.state);
+  return equation;
 }
 
 std::optional<std::vector<EventEquation>> singular_equations(Criterion criterion, const SystemFamily::Member& at,

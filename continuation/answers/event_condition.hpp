@@ -15,12 +15,14 @@ struct WeightedMember {
   SystemFamily::Member member{};
   double weight = 0.0;  ///< [1/κ]
   double few = 0.0;     ///< the weight of a derivative from three members alone, for what Newton's method alone needs
-  Vector F{};           ///< its residual, where that is known
+  double kappa = 0.0;
+  Vector F{};  ///< its residual, where that is known
 };
 
 /// What makes a point of a path an event, beside equilibrium with the event's contacts (docs/theory.md, section 14).
 enum class Criterion {
   turning,   ///< the rate along the path of λ, or of a monitor, is zero
+  value,     ///< a monitor, or λ, has a value
   guard,     ///< a guard is zero
   crossing,  ///< ∂F/∂x is singular, and F_λ does no work along its left null vector
 };
@@ -48,6 +50,10 @@ struct EventBorder {
 /// the path at a neighbouring event, if that is known, so that directions keep their sense.
 std::optional<EventBorder> event_border(Criterion criterion, const SystemFamily::Member& at, const Metric& metric,
                                         const MakeFactorization& make, const Direction* before = nullptr);
+
+/// The equation m = value of what passes a value.
+EventEquation passed_value(const SystemFamily::Member& at, double value, const EventBorder& border,
+                           const std::vector<WeightedMember>& samples);
 
 /// The direction of unit length of the path through the event, of a crossing of the one on which λ varies; empty where
 /// A is singular.

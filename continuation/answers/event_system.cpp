@@ -136,10 +136,11 @@ std::vector<WeightedMember> EventSystem::samples(const State& event, double kapp
     const std::vector<double> of_few = weights_of_derivative(nearest, few, t);
     std::vector<WeightedMember> samples;
     for (int i = 0; i < count; ++i) {
-      auto member = family_.at((middle + double(first + i)) * h, event);
+      const double there = (middle + double(first + i)) * h;
+      auto member = family_.at(there, event);
       if (!member) break;
-      WeightedMember& sample = samples.emplace_back(
-          WeightedMember{.member = std::move(*member), .weight = weights[static_cast<std::size_t>(i)] / h});
+      WeightedMember& sample = samples.emplace_back(WeightedMember{
+          .member = std::move(*member), .weight = weights[static_cast<std::size_t>(i)] / h, .kappa = there});
       const int among_few = first + i - nearest;
       if (among_few >= 0 && among_few < few) sample.few = of_few[static_cast<std::size_t>(among_few)] / h;
     }
@@ -151,6 +152,7 @@ std::vector<WeightedMember> EventSystem::samples(const State& event, double kapp
 std::optional<std::vector<EventEquation>> EventSystem::equations(const SystemFamily::Member& at,
                                                                  const EventBorder& border, Linearization& here,
                                                                  std::vector<WeightedMember>& samples) const {
+  if (event_.criterion == Criterion::value) return std::vector{passed_value(at, event_.value, border, samples)};
   if (event_.criterion != Criterion::guard)
     return singular_equations(event_.criterion, at, border, here, samples, metric_of(at), make_);
   const Index j = event_.guards.front();

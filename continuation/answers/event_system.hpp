@@ -14,7 +14,8 @@ namespace arcwall {
 struct FollowedEvent {
   Criterion criterion = Criterion::turning;
   std::vector<Index>
-      guards{};  ///< that vanish all along the curve; of Criterion::guard the first is what is solved for
+      guards{};        ///< that vanish all along the curve; of Criterion::guard the first is what is solved for
+  double value = 0.0;  ///< of Criterion::value
 };
 
 /// An event of a family of systems as a system of its own: its paths are curves of the event in two parameters
@@ -49,6 +50,10 @@ class EventSystem final : public System {
   static double lambda_rate(const State& state, const Direction& direction);
 
   const FollowedEvent& event() const { return event_; }
+
+  /// Members near κ with an event's state, in the family's terms, from which derivatives by κ are made; empty where
+  /// there are too few.
+  std::vector<WeightedMember> samples(const State& event, double kappa) const;
 
   /// What the unknowns of a state here mean, as plain values: for those who keep states.
   struct Meaning {
@@ -103,7 +108,6 @@ class EventSystem final : public System {
   // a state whose μ it has.
   State extended(const SystemFamily::Member& at, const State& event, double kappa, EventBorder border,
                  const State* like = nullptr) const;
-  std::vector<WeightedMember> samples(const State& event, double kappa) const;
   std::optional<std::vector<EventEquation>> equations(const SystemFamily::Member& at, const EventBorder& border,
                                                       Linearization& here, std::vector<WeightedMember>& samples) const;
   bool vanishes(Index guard) const;

@@ -15,7 +15,8 @@ class SystemFamily {
   struct Member {
     std::shared_ptr<const System> system{};
     State state{};
-    std::shared_ptr<const Observable> turning{};  ///< the monitor of a displacement limit, of this system; else null
+    std::shared_ptr<const Observable>
+        watched{};  ///< what turns or passes a value at the event, of this system; else null
   };
 
   virtual ~SystemFamily() = default;

@@ -13,8 +13,8 @@ namespace {
 void event_keys(Keys& keys, EventToFollow& curve) {
   keys.word("kind", curve.event, curve_event_words,
             "`\"limit-point\"`, `\"branch-point\"`, `\"contact-closes\"`, `\"contact-spreads\"`, "
-            "`\"contact-splits\"`, `\"contact-shrinks\"`, `\"contacts-merge\"`, `\"contact-limit-point\"` or "
-            "`\"turning-point\"`");
+            "`\"contact-splits\"`, `\"contact-shrinks\"`, `\"contacts-merge\"`, `\"contact-limit-point\"`, "
+            "`\"turning-point\"` or `\"value-crossing\"`");
   keys.integer(optional("number"), curve.number, {.low = 1},
                "which of that kind, counted from 1 in the order of `events.txt`");
 }

@@ -119,17 +119,18 @@ inline constexpr Words<EventKind, 12> stop_event_words{{{"contact-closes", Event
                                                         {"limit-point", EventKind::limit_point},
                                                         {"contact-limit-point", EventKind::contact_limit_point},
                                                         {"turning-point", EventKind::turning_point},
-{"value-crossing", EventKind::value_crossing},
+                                                        {"value-crossing", EventKind::value_crossing},
                                                         {"branch-point", EventKind::branch_point}}};
 
-inline constexpr Words<EventKind, 9> curve_event_words{{{"limit-point", EventKind::limit_point},
-                                                        {"branch-point", EventKind::branch_point},
-                                                        {"contact-closes", EventKind::contact_closes},
-                                                        {"contact-spreads", EventKind::contact_spreads},
-                                                        {"contact-splits", EventKind::contact_splits},
-                                                        {"contact-shrinks", EventKind::contact_shrinks},
-                                                        {"contacts-merge", EventKind::contacts_merge},
-                                                        {"contact-limit-point", EventKind::contact_limit_point},
-                                                        {"turning-point", EventKind::turning_point}}};
+inline constexpr Words<EventKind, 10> curve_event_words{{{"limit-point", EventKind::limit_point},
+                                                         {"branch-point", EventKind::branch_point},
+                                                         {"contact-closes", EventKind::contact_closes},
+                                                         {"contact-spreads", EventKind::contact_spreads},
+                                                         {"contact-splits", EventKind::contact_splits},
+                                                         {"contact-shrinks", EventKind::contact_shrinks},
+                                                         {"contacts-merge", EventKind::contacts_merge},
+                                                         {"contact-limit-point", EventKind::contact_limit_point},
+                                                         {"turning-point", EventKind::turning_point},
+                                                         {"value-crossing", EventKind::value_crossing}}};
 
 }  // namespace arcwall::deck
