@@ -226,7 +226,7 @@ class Keys {
   virtual bool has(std::string_view) const { return false; }
   virtual bool holds_array(std::string_view) const { return true; }  ///< true also while a deck is written or listed
   virtual bool holds_table(std::string_view) const { return false; }
-  virtual Position position() const { return {}; }                   ///< of the table
+  virtual Position position() const { return {}; }  ///< of the table
 
   /// Reports about the value of a key, about the table where it has none, or about the key itself.
   virtual void report(std::string_view, const std::string& /*message*/, const std::string& /*cure*/) {}
