@@ -68,6 +68,12 @@ class FixedBody final : public Body {
     return std::make_shared<MemberGreatest>(std::make_shared<TiedElements>(tied(member)), std::move(quantities), what,
                                             negligible);
   }
+  Vector steps(const State& state) const override {
+    Vector steps = Vector::Zero(state.x.size());
+    const Vector alike = moves_alike(structure_.weights({}));
+    steps.head(alike.size()) = alike;
+    return steps;
+  }
   std::vector<ShapePoint> shape(std::size_t member, const State& state) const override;
 
  private:
@@ -128,6 +134,7 @@ class SlidingMeshBody final : public Body {
     return std::make_shared<MemberGreatest>(std::make_shared<SlidingElements>(sliding_, name(member)),
                                             std::move(quantities), what, negligible);
   }
+  Vector steps(const State& state) const override { return moves_alike(sliding_, state); }
   std::vector<ShapePoint> shape(std::size_t member, const State& state) const override;
 
  private:

@@ -46,6 +46,9 @@ class Body {
   virtual std::shared_ptr<const Observable> greatest(std::size_t member, std::vector<SectionQuantity> quantities,
                                                      MemberGreatest::What what, double negligible) const = 0;
 
+  /// By how much each unknown of a state is moved for a difference; 0 of what is no motion.
+  virtual Vector steps(const State& state) const = 0;
+
   /// A member from end to end: at fixed fractions, each node of meshes that are not too fine among them, and at
   /// breakpoints.
   virtual std::vector<ShapePoint> shape(std::size_t member, const State& state) const = 0;

@@ -9,6 +9,7 @@
 #include "elements/foundation_law.hpp"
 #include "elements/member_point.hpp"
 #include "model/build_contact.hpp"
+#include "model/contact_edge.hpp"
 #include "model/deck/key_list.hpp"
 #include "model/deck/words.hpp"
 #include "model/spring_force.hpp"
@@ -70,6 +71,8 @@ std::string unit_of(deck::Component component, const deck::Units& units) {
     case deck::Component::x:
     case deck::Component::z:
     case deck::Component::gap:
+    case deck::Component::contact_start:
+    case deck::Component::contact_end:
     case deck::Component::face_above_z:
     case deck::Component::face_below_z:
       return unit_text(deck::unit::length, units);
@@ -99,6 +102,10 @@ std::vector<End> ends_of(const Measured& from, const deck::Place& place) {
   const Places::Node node = from.places.find(place, from.structure.members());
   if (node.member != nullptr) return {{.mesh = node.member, .position = node.position}};
   return ends_at(from.structure, node.node);
+}
+
+std::size_t member_index(const Measured& from, const std::string& name) {
+  return static_cast<std::size_t>(from.places.members.at(name));
 }
 
 std::size_t index_of(const MemberMesh& mesh, const Structure& structure) {
@@ -170,12 +177,24 @@ std::shared_ptr<const Observable> wall_force(const deck::Deck& deck, const Measu
   return std::make_shared<WallForce>(*from.contacts, std::move(of), what, motion_of(wall).about);
 }
 
+// Where contact of a wall with a member begins or ends.
+std::shared_ptr<const Observable> contact_edge(const Measured& from, const deck::Monitor& monitor,
+                                               ContactEdge::What what) {
+  if (from.contacts == nullptr) return std::make_shared<ParameterValue>();  // as above
+  const bool first = monitor.component == deck::Component::contact_start;
+  return std::make_shared<ContactEdge>(*from.contacts, from.body,
+                                       ContactsOfWall{.wall = monitor.wall, .member = monitor.member},
+                                       from.structure.members()[member_index(from, monitor.member)].length,
+                                       first ? ContactEdge::Which::first : ContactEdge::Which::last, what);
+}
+
 // A wall that is not in the way of the member exerts nothing on it.
 std::shared_ptr<const Observable> on_wall(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
                                           DeckProblems& problems) {
   const deck::Wall& wall = *deck::find(deck.walls, monitor.wall);
   if (monitor.member.empty() || concerns(wall, monitor.member))
-    return wall_force(deck, from, monitor, monitor.member, std::nullopt);
+    return is_contact_edge(monitor.component) ? contact_edge(from, monitor, ContactEdge::What::arc_length)
+                                              : wall_force(deck, from, monitor, monitor.member, std::nullopt);
   problems.add(monitor.position, "monitor.member",
                "wall \"" + wall.name + "\" does not stand in the way of \"" + monitor.member + "\"",
                "add the member to `members` of the wall, or name a member that is there");
@@ -203,10 +222,6 @@ std::shared_ptr<const Observable> gap(const deck::Deck& deck, const Measured& fr
 }
 
 // --- what a member carries ------------------------------------------------------------------------------------------
-
-std::size_t member_index(const Measured& from, const std::string& name) {
-  return static_cast<std::size_t>(from.places.members.at(name));
-}
 
 double moment_at(const MemberStretch& stretch, double xi) { return stretch.moment(xi); }
 
@@ -381,6 +396,19 @@ void add_place(const deck::Deck& deck, const Measured& from, const deck::Monitor
   if (monitor.of() == deck::Monitored::structure) add("-member", OfGreatest::member);
 }
 
+// Where an edge of contact is now: NAME-x.
+void add_x(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
+           std::vector<MonitorColumn>& columns) {
+  std::string name = monitor.name + "-x";
+  while (deck::find(deck.monitors, name) != nullptr) name += "-";
+  const auto x = contact_edge(from, monitor, ContactEdge::What::x);
+  columns.push_back({.name = std::move(name),
+                     .unit = unit_of(monitor.component, deck.units),
+                     .component = monitor.component,
+                     .quantity = x,
+                     .raw = x});
+}
+
 // A column for each direction that is moved and has no monitor of its reaction: `reaction-x-B`.
 void add_reactions_of_movements(const deck::Deck& deck, const Measured& from, std::vector<MonitorColumn>& columns) {
   const auto add = [&](const std::string& point, bool moved, deck::Component component) {
@@ -415,6 +443,8 @@ Watch::Kind kind_of(const MonitorColumn& column, const deck::Deck& deck) {
     case deck::Component::face_above_z:
     case deck::Component::face_below_z:
     case deck::Component::gap:
+    case deck::Component::contact_start:
+    case deck::Component::contact_end:
     case deck::Component::thickness:
     case deck::Component::thickness2:
       return Watch::Kind::motion;
@@ -453,6 +483,52 @@ bool is_of_section_forces(deck::Component component) {
   return component == deck::Component::axial_force || component == deck::Component::moment || is_greatest(component);
 }
 
+namespace {
+
+// What nodal forces, which are small differences of great ones, or places leave of zero.
+double roundoff_of(const deck::Deck& deck, const Measured& from, const MonitorColumn& column) {
+  constexpr double of_forces = 10.0, of_places = 1e-14;
+  const double length = from.structure.length_scale(), force = of_forces * from.structure.force_roundoff();
+  switch (column.component) {
+    case deck::Component::reaction_x:
+    case deck::Component::reaction_z:
+    case deck::Component::axial_force:
+    case deck::Component::force_x:
+    case deck::Component::force_z:
+      return force;
+    case deck::Component::reaction_moment:
+    case deck::Component::moment:
+    case deck::Component::max_moment:
+      return force * length;
+    case deck::Component::greatest_pressure:
+      return force / length;
+    case deck::Component::max_stress:
+    case deck::Component::utilisation: {
+      double most = 0.0;
+      if (const deck::Monitor* const monitor = deck::find(deck.monitors, column.name))
+        for (const AlongMember& along : along_members(deck, from, *monitor))
+          most = std::max(most, of_forces * along.negligible);
+      return most;
+    }
+    case deck::Component::x:
+    case deck::Component::z:
+    case deck::Component::gap:
+    case deck::Component::contact_start:
+    case deck::Component::contact_end:
+    case deck::Component::face_above_z:
+    case deck::Component::face_below_z:
+      return of_places * length;
+    case deck::Component::rotation:
+    case deck::Component::thickness:
+      return of_places;
+    case deck::Component::thickness2:
+      return of_places / length;
+  }
+  return 0.0;
+}
+
+}  // namespace
+
 std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& from, DeckProblems& problems) {
   std::vector<MonitorColumn> columns;
   for (const deck::Monitor& monitor : deck.monitors) {
@@ -481,8 +557,10 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measure
                        .quantity = std::move(quantity),
                        .raw = raw});
     if (is_greatest(monitor.component)) add_place(deck, from, monitor, columns);
+    if (is_contact_edge(monitor.component)) add_x(deck, from, monitor, columns);
   }
   add_reactions_of_movements(deck, from, columns);
+  for (MonitorColumn& column : columns) column.roundoff = roundoff_of(deck, from, column);
   return columns;
 }
 

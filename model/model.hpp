@@ -30,6 +30,7 @@ struct MonitorColumn {
   std::shared_ptr<const Observable> quantity{};  ///< with the deck's sign
   std::shared_ptr<const Observable> raw{};       ///< without the deck's sign; null for a position
   bool is_place = false;                         ///< the position of a maximum along a member
+  double roundoff = 0.0;                         ///< of its values near zero
 };
 
 /// Builds from a deck the system, its monitors and the options of tracing.

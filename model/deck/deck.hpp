@@ -297,6 +297,8 @@ enum class Component {
   force_x,
   force_z,
   gap,
+  contact_start,
+  contact_end,
   max_moment,
   max_stress,
   utilisation,
@@ -309,6 +311,11 @@ enum class Component {
 constexpr bool is_greatest(Component component) {
   return component == Component::max_moment || component == Component::max_stress ||
          component == Component::utilisation || component == Component::greatest_pressure;
+}
+
+/// Whether it is the place of an edge of contact.
+constexpr bool is_contact_edge(Component component) {
+  return component == Component::contact_start || component == Component::contact_end;
 }
 
 /// Whether it is a stress in the outer fibres, or a part of what is allowed of one.

@@ -318,6 +318,9 @@ Owner owner_of(Component component) {
       return {"a wall or a spring", "write `wall` or `spring` instead, or give reaction-x or reaction-z of a place"};
     case Component::gap:
       return {"a place and a wall", "give both `at` and `wall`"};
+    case Component::contact_start:
+    case Component::contact_end:
+      return {"a wall and a member", "give both `wall` and `member`"};
     case Component::max_moment:
       return {"a member", "write `member` instead"};
     case Component::max_stress:
@@ -360,7 +363,9 @@ bool check_owner(Keys& keys, const Monitor& monitor) {
         return refuse(word + " belongs to " + owner.is, owner.cure);
       return true;
     case Monitored::wall:
-      return is_force(component) ||
+      if (is_contact_edge(component) && monitor.member.empty())
+        return refuse(word + " is a place along a member", "add `member`: the one that the wall touches");
+      return is_force(component) || is_contact_edge(component) ||
              refuse("a wall has no " + word, component == Component::gap ? "add `at`: the place of which it is the gap"
                                                                          : "give force-x, force-z or moment");
     case Monitored::gap:

@@ -72,7 +72,7 @@ inline constexpr Words<ContactLaw::Method, 3> contact_method_words{{{"multiplier
                                                                     {"augmented", ContactLaw::Method::augmented}}};
 inline constexpr Words<ContactPoints, 2> contact_points_words{
     {{"nodes", ContactPoints::nodes}, {"moving", ContactPoints::moving}}};
-inline constexpr Words<Component, 19> component_words{{{"x", Component::x},
+inline constexpr Words<Component, 21> component_words{{{"x", Component::x},
                                                        {"z", Component::z},
                                                        {"rotation", Component::rotation},
                                                        {"face-above-z", Component::face_above_z},
@@ -85,6 +85,8 @@ inline constexpr Words<Component, 19> component_words{{{"x", Component::x},
                                                        {"force-x", Component::force_x},
                                                        {"force-z", Component::force_z},
                                                        {"gap", Component::gap},
+                                                       {"contact-start", Component::contact_start},
+                                                       {"contact-end", Component::contact_end},
                                                        {"max-moment", Component::max_moment},
                                                        {"max-stress", Component::max_stress},
                                                        {"utilisation", Component::utilisation},
