@@ -21,10 +21,11 @@ namespace arcwall {
 /// Defines a stop bound, an output point or an event: a value of a quantity, solved for.
 struct TargetValue {
   std::shared_ptr<const Observable> quantity{};
-  double value = 0.0;   ///< in the unit of the quantity
-  bool stops = false;   ///< true: the branch ends there
-  std::string label{};  ///< for messages: `mid = -0.16`
-  std::string event{};  ///< label of the events at which the value is passed; empty: it is no event
+  double value = 0.0;     ///< in the unit of the quantity
+  double roundoff = 0.0;  ///< of the quantity where it is zero, likewise
+  bool stops = false;     ///< true: the branch ends there
+  std::string label{};    ///< for messages: `mid = -0.16`
+  std::string event{};    ///< label of the events at which the value is passed; empty: it is no event
 };
 
 /// Defines a kind of event that ends the branch.

@@ -87,19 +87,17 @@ TraceOptions trace_options(const deck::Deck& deck, const Measured& from, const s
                    "\"" + to_text(path.control->at) + "\" is held in that direction, so that it cannot be controlled",
                    "name a direction that is free, or that λ moves");
   }
-  const auto quantity = [&](const std::string& name) -> std::shared_ptr<const Observable> {
-    if (name == "lambda") return std::make_shared<ParameterValue>();
-    const MonitorColumn* column = deck::find(monitors, name);
-    return column != nullptr ? column->quantity : nullptr;
-  };
   enum class At { output, stop, event };
   const auto mark = [&](const std::string& name, double value, At at) {
-    if (auto q = quantity(name))
-      options.target_values.push_back({.quantity = std::move(q),
-                                       .value = value,
-                                       .stops = at == At::stop,
-                                       .label = name + " = " + round_trip(value),
-                                       .event = at == At::event ? name : ""});
+    const MonitorColumn* const column = deck::find(monitors, name);
+    if (column != nullptr || name == "lambda")
+      options.target_values.push_back(
+          {.quantity = column != nullptr ? column->quantity : std::make_shared<ParameterValue>(),
+           .value = value,
+           .roundoff = column != nullptr ? column->roundoff : 0.0,
+           .stops = at == At::stop,
+           .label = name + " = " + round_trip(value),
+           .event = at == At::event ? name : ""});
   };
   for (const deck::OutputValues& output : path.output_at)
     for (const double value : output.values) mark(output.name, value, At::output);

@@ -247,19 +247,18 @@ void check_turning_points(const Branch& branch, const Record& record, const Mode
 // --- values that are passed -----------------------------------------------------------------------------------------
 
 // A watched value is met where it is passed; where it is met already at the point before, it was an event there.
-void check_passed_value(const Branch& branch, const std::string& name, double passed,
+void check_passed_value(const Branch& branch, const std::string& name, double passed, double roundoff,
                         const std::function<double(const RecordPoint&)>& value, Findings& findings) {
-  double greatest = std::abs(passed);
-  for (const RecordPoint& point : branch.points) greatest = std::max(greatest, std::abs(value(point)));
-  const double roundoff = 1e-9 * greatest;
+  constexpr double relative = 1e-11;
   for (std::size_t i = 0; i + 1 < branch.points.size(); ++i) {
     const double before = value(branch.points[i]) - passed, after = value(branch.points[i + 1]) - passed;
-    if (!(std::abs(before) > roundoff) || std::isnan(after)) continue;
+    const double zero = std::max(relative * std::max({std::abs(passed), std::abs(before), std::abs(after)}), roundoff);
+    if (!(std::abs(before) > zero) || std::isnan(after)) continue;
     const Index step = branch.points[i + 1].step;
     const bool is_event = branch.has_event(step, step, [&](const ListedEvent& event) {
       return event.kind == "value-crossing" && event.monitor == name && event.value == passed;
     });
-    const bool is_passed = std::abs(after) <= roundoff || before * after < 0.0;
+    const bool is_passed = std::abs(after) <= zero || before * after < 0.0;
     findings.at("events.json", branch.id, step);
     findings.require(complete, is_event == is_passed,
                      fmt::format("{} {} {} at step {}, {} an event", name, is_passed ? "passes" : "does not pass",
@@ -271,8 +270,9 @@ void check_passed_values(const Branch& branch, const Record& record, const Model
   const auto check = [&](const std::string& name, double passed) {
     const auto column = std::find_if(record.columns.begin(), record.columns.end(),
                                      [&](const RecordColumn& one) { return one.name == name; });
+    const MonitorColumn* const here = deck::find(model.monitors(), name);
     check_passed_value(
-        branch, name, passed,
+        branch, name, passed, here != nullptr ? here->roundoff : 0.0,
         [&](const RecordPoint& point) {
           return column == record.columns.end()
                      ? point.lambda

@@ -148,6 +148,11 @@ std::vector<Event> value_crossings(const TraceTools& tools, const StepOrigin& or
     const bool landed = end.event && end.event->what == EventPlace::What::target_value && end.event->which == i;
     if (!landed && !lies_between(target, origin.point().state, at.state)) continue;
     events.push_back(value_crossing(target, at, origin.from.count_after.unstable, behind.unstable));
+    if (landed) {
+      const double width = end.event->half_width * end.length / std::max(end.event->t, 1e-3);
+      events.back().lambda_uncertainty =
+          std::max(events.back().lambda_uncertainty, std::abs(at.tangent.dlambda) * width);
+    }
   }
   return events;
 }

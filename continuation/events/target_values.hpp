@@ -15,7 +15,7 @@ inline double excess(const TargetValue& target, const State& state) {
 
 /// Differences below this are round-off: the value is met. `v0`, `v1`: excesses at both ends of a stretch.
 inline double excess_noise(const TargetValue& target, double v0, double v1) {
-  return 1e-11 * std::max({std::abs(target.value), std::abs(v0), std::abs(v1)});
+  return std::max(1e-11 * std::max({std::abs(target.value), std::abs(v0), std::abs(v1)}), target.roundoff);
 }
 
 /// Whether the value lies between two states, or at the second one; one that is met at the first does not count.

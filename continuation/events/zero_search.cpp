@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "continuation/events/target_values.hpp"
 #include "core/root_find.hpp"
 
 namespace arcwall {
@@ -210,14 +211,59 @@ class ZeroSearch {
 
 }  // namespace
 
+namespace {
+
+// Where a quantity comes to its value, at which it may stay: the first point that has it but for round-off.
+LocatedEvent locate_arrival(TraceTools& tools, const StepOrigin& origin, EventPlace place, const TargetValue& target,
+                            const PathPoint& to) {
+  const Segment segment(origin.metric, origin.point(), to);
+  const double v0 = excess(target, origin.point().state), v1 = excess(target, to.state);
+  const double noise = 0.5 * excess_noise(target, v0, v1), sign = std::copysign(1.0, v0);
+  LocatedEvent arrival{.place = place, .point = to};
+  arrival.place.t = 1.0;
+  const auto before_it = [&](double t) -> std::optional<double> {
+    const ChordPlaneConstraint plane(origin.metric, segment.from().state, segment.to().state, t);
+    CorrectedPoint there = correct_onto(tools, origin, plane, segment, t);
+    arrival.failure = there.status;
+    if (!there.point) return std::nullopt;
+    const double left = sign * excess(target, there.point->state) - noise;
+    if (left <= 0.0 && t < arrival.place.t) {
+      arrival.place.t = t;
+      arrival.point = std::move(there.point);
+    }
+    return left;
+  };
+  const double at_start = sign * v0 - noise, at_end = sign * v1 - noise;
+  const auto root = at_start > 0.0 && at_end <= 0.0
+                        ? bracketed_root(before_it, 0.0, at_start, 1.0, at_end, tools.options.localisation)
+                        : std::nullopt;
+  if (!root) arrival.point.reset();
+  if (root) arrival.place.half_width = 2.0 * root->half_width + tools.options.localisation;
+  return arrival;
+}
+
+// A value is solved for, unless the quantity stays at it, as a force does on a level part of a wall.
+LocatedEvent locate_value(TraceTools& tools, const StepOrigin& origin, const EventPlace& place, const PathPoint& to) {
+  const TargetValue& target = tools.options.target_values[place.which];
+  const ValueConstraint constraint(*target.quantity, target.value);
+  const Segment segment(origin.metric, origin.point(), to);
+  CorrectedPoint at = correct_onto(tools, origin, constraint, segment, place.t);
+  const double v0 = excess(target, origin.point().state);
+  const auto stays = [&](const PathPoint& point) {
+    const double v = excess(target, point.state), noise = excess_noise(target, v0, v);
+    const double rate = apply(target.quantity->gradient(point.state), point.tangent);
+    return std::abs(v) <= noise && std::abs(rate) * segment.length() <= noise;
+  };
+  const PathPoint& reached = at.point ? *at.point : to;
+  if (stays(reached))
+    if (LocatedEvent arrival = locate_arrival(tools, origin, place, target, reached); arrival.point) return arrival;
+  return {.place = place, .point = std::move(at.point), .failure = at.status};
+}
+
+}  // namespace
+
 LocatedEvent locate(TraceTools& tools, const StepOrigin& origin, const EventPlace& place, const PathPoint& to) {
-  if (place.what == EventPlace::What::target_value) {
-    const TargetValue& target = tools.options.target_values[place.which];
-    const ValueConstraint constraint(*target.quantity, target.value);
-    const Segment segment(origin.metric, origin.point(), to);
-    CorrectedPoint at = correct_onto(tools, origin, constraint, segment, place.t);
-    return {.place = place, .point = std::move(at.point), .failure = at.status};
-  }
+  if (place.what == EventPlace::What::target_value) return locate_value(tools, origin, place, to);
   if (tools.options.events == EventSearch::detect) {
     LocatedEvent at_end{.place = place, .point = to};
     at_end.place.t = 1.0;

@@ -119,6 +119,33 @@ TEST(ValueCrossing, IsRefusedWhereNothingIsPassed) {
   expect_in(said_of(truss("stop.event = \"value-crossing\"")), "add watch = { zero = [\"MONITOR\"] }");
 }
 
+// The push of a snap-fit is zero all along the top of its catch. The nose comes to it where the rounding, of radius 0.3
+// between slopes of 1/2 and 0, ends: 0.3 tan(½ atan ½) to the right of the corner, which λ moves to the left.
+TEST(ValueCrossing, IsWhereAForceVanishesForGood) {
+  const std::string deck =
+      std::string(test::example("snap-fit")) + "\n[[monitor]]\nname = \"nose\"\nat = \"nose\"\ncomponent = \"x\"\n";
+  for (const char* step : {"0.05", "0.2"}) {
+    SCOPED_TRACE(step);
+    const TracedDeck run(deck,
+                         {"path.watch={zero=['push']}", "path.jumps=false", fmt::format("path.max_step={}", step)});
+    const auto events = events_of(run, EventKind::value_crossing);
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_NEAR(events[0].monitors[1], 1.2, 1e-9);
+    const double rounding = 0.3 * std::tan(0.5 * std::atan(0.5));
+    EXPECT_NEAR(events[0].lambda, 3.9 + rounding - events[0].monitors[2], 1e-8);
+    EXPECT_EQ(run.record().branches[0].end->reason, EndReason::stop);
+    expect_confirmed(run);
+  }
+}
+
+// Before it touches a guidewire carries nothing but round-off, which passes no value.
+TEST(ValueCrossing, IsNotMadeByRoundOff) {
+  const TracedDeck run(test::example("guidewire"),
+                       {"path.watch={zero=['push', 'tip']}", "path.jumps=false", "path.stop.lambda=[-1.0, 40.0]"});
+  EXPECT_TRUE(events_of(run, EventKind::value_crossing).empty());
+  expect_confirmed(run);
+}
+
 // A strip over a floor, bent down by a moment at its right end, which then is taken back. It touches, and leaves.
 std::string strip_that_leaves(const std::string& points, const std::string& stop) {
   return fmt::format(R"toml(
