@@ -363,7 +363,8 @@ TEST(EventCurve, IsWrittenAsATableAPageAndSpecialPoints) {
   EXPECT_EQ(deck::read_deck_text(deck::to_toml(deck), "deck.toml"), deck);
   const EventCurve curve = curve_of(text);
   const std::string csv = curve_csv(curve, UnitLabels::left_out);
-  EXPECT_TRUE(csv.starts_with("point,arc,key,lambda,mid,slope,unstable_before,unstable_after,contacts\n0,0,0.19,"));
+  EXPECT_TRUE(
+      csv.starts_with("point,arc,key,lambda,mid,slope,unstable_before,unstable_after,contacts,slope-mid\n0,0,0.19,"));
   const auto json = curve_json(curve, {.deck_text = text});
   EXPECT_EQ(json["specials"].front()["kind"], "begins");
   EXPECT_EQ(json["specials"].back()["kind"], "ends");

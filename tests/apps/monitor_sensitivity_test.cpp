@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "model/deck/reader.hpp"
+#include "model/event_curve.hpp"
 #include "model/event_names.hpp"
 #include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
@@ -46,10 +48,10 @@ double force_at(double w, double rise) {
 }
 
 // ∂F/∂h at fixed w.
-double force_by_rise(double w) {
-  const double L2 = b * b + h * h;
-  const double of_rise = EA * w * (-(w - 2.0 * h) - 2.0 * (w - h)) / std::pow(L2, 1.5);
-  return of_rise - 3.0 * h / L2 * force_at(w, h);
+double force_by_rise(double w, double rise) {
+  const double L2 = b * b + rise * rise;
+  const double of_rise = EA * w * (-(w - 2.0 * rise) - 2.0 * (w - rise)) / std::pow(L2, 1.5);
+  return of_rise - 3.0 * rise / L2 * force_at(w, rise);
 }
 
 }  // namespace
@@ -87,13 +89,54 @@ TEST(MonitorSensitivity, OfAValueThatIsPassedIsThatOfItsClosedForm) {
   EXPECT_EQ(events[0].monitor, "lambda");
   EXPECT_NEAR(events[0].sensitivity[1].slope.value(), 0.0, 1e-9);
   EXPECT_NEAR(rate(run, events[0], 0, "F"), force_at(0.1, h) / EA, 1e-7 * force_at(0.1, h) / EA);
-  EXPECT_NEAR(rate(run, events[0], 1, "F"), force_by_rise(0.1), 1e-7 * force_by_rise(0.1));
+  EXPECT_NEAR(rate(run, events[0], 1, "F"), force_by_rise(0.1, h), 1e-7 * force_by_rise(0.1, h));
   EXPECT_EQ(events[1].monitor, "F");
   const double w = events[1].lambda, step = 1e-5;
   const double stiffness = (force_at(w + step, h) - force_at(w - step, h)) / (2.0 * step);
   EXPECT_NEAR(rate(run, events[1], 1, "F"), 0.0, 1e-6);
-  EXPECT_NEAR(events[1].sensitivity[1].slope.value(), -force_by_rise(w) / stiffness,
-              1e-6 * std::abs(force_by_rise(w) / stiffness));
+  EXPECT_NEAR(events[1].sensitivity[1].slope.value(), -force_by_rise(w, h) / stiffness,
+              1e-6 * std::abs(force_by_rise(w, h) / stiffness));
+}
+
+namespace {
+
+EventCurve curve_of(const std::string& deck) { return trace_event_curve(deck::read_deck_text(deck, "deck.toml"), {}); }
+
+// Of the monitor F, the last one.
+void expect_force(const EventCurve& curve, const CurvePoint& point, double force, double slope) {
+  ASSERT_EQ(curve.columns.back().name, "F");
+  EXPECT_NEAR(point.monitors.back(), force, 1e-8 * std::abs(force)) << point.key;
+  EXPECT_NEAR(point.slopes.back().value(), slope, 1e-6 * std::abs(slope)) << point.key;
+}
+
+}  // namespace
+
+TEST(EventCurveOfAForce, AtAGivenMovementIsItsClosedForm) {
+  const EventCurve curve = curve_of(pushed_truss("watch = { value = { lambda = [0.1] } }") +
+                                    "\n[curve]\nevent = { kind = \"value-crossing\" }\nparameter = \"point.top.1\"\n"
+                                    "range = [0.3, 0.8]\n");
+  ASSERT_EQ(curve.problem, "");
+  ASSERT_GE(curve.points.size(), 5U);
+  EXPECT_NEAR(curve.points.front().key, 0.3, 1e-12);
+  EXPECT_NEAR(curve.points.back().key, 0.8, 1e-12);
+  for (const CurvePoint& point : curve.points) {
+    EXPECT_NEAR(point.lambda, 0.1, 1e-12);
+    EXPECT_NEAR(point.slope.value(), 0.0, 1e-9);
+    expect_force(curve, point, force_at(0.1, point.key), force_by_rise(0.1, point.key));
+  }
+}
+
+TEST(EventCurveOfAForce, ThatIsGreatestIsItsClosedForm) {
+  const EventCurve curve = curve_of(pushed_truss("watch = [\"F\"]") +
+                                    "\n[curve]\nevent = { kind = \"turning-point\" }\nparameter = \"point.top.1\"\n"
+                                    "range = [0.3, 0.8]\n");
+  ASSERT_EQ(curve.problem, "");
+  for (const CurvePoint& point : curve.points) {
+    const double rise = point.key, L2 = b * b + rise * rise;
+    const double most = 2.0 * EA * std::pow(rise, 3) / (3.0 * std::sqrt(3.0) * std::pow(L2, 1.5));
+    EXPECT_NEAR(point.lambda, rise * (1.0 - 1.0 / std::sqrt(3.0)), 1e-8);
+    expect_force(curve, point, most, most * (3.0 / rise - 3.0 * rise / L2));
+  }
 }
 
 namespace {

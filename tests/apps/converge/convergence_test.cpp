@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <tuple>
 
 #include "apps/converge/convergence.hpp"
 #include "apps/converge/convergence_files.hpp"
@@ -82,6 +83,31 @@ TEST(Convergence, OfLeesFrameHoldsTheTruth) {
   }
   for (const ConvergedEvent& one : study->events)
     for (const auto& lambda : one.lambda.on_mesh) EXPECT_TRUE(lambda.has_value());
+}
+
+// So do the displacements of the loaded point there, to the right and down.
+TEST(Convergence, OfTheMonitorsOfLeesFrameHoldsTheTruth) {
+  const auto study = converge(lee(), {});
+  ASSERT_TRUE(study);
+  ASSERT_EQ(study->columns.at(0).name, "down");
+  ASSERT_EQ(study->columns.at(1).name, "right");
+  for (const auto& [number, down, right] : {std::tuple(Index{1}, 48.735137245104, 26.880573741639),
+                                            std::tuple(Index{2}, 58.216815328711, 90.195673535530)}) {
+    const ConvergedEvent& limit = only(*study, EventKind::limit_point, number);
+    for (const auto& [monitor, truth] : {std::pair(0U, down), std::pair(1U, right)}) {
+      SCOPED_TRACE(study->columns[monitor].name);
+      const ConvergedValue& value = limit.monitors.at(monitor);
+      EXPECT_NEAR(value.limit.order.value(), 4.0, 0.5);
+      EXPECT_LE(std::abs(value.limit.value - truth), value.limit.error.value());
+      EXPECT_LE(value.limit.error.value(), 1e-3);
+      EXPECT_LE(std::abs(value.on_mesh[1].value() - truth), value.error_of_deck.value());
+    }
+  }
+  const std::string text = convergence_text(*study);
+  EXPECT_NE(text.find("Monitors at the events"), std::string::npos);
+  const std::vector<std::string> none;
+  const auto json = convergence_json(*study, {.text = test::example("lee"), .assignments = none});
+  EXPECT_EQ(json["events"][0]["monitors"]["right"]["values"].size(), 3U);
 }
 
 // What cannot be halved begins with the deck's own mesh and says so.

@@ -284,6 +284,18 @@ TEST_F(SweepProgramTest, TheReportIsOnePageWithoutNetworkThatTrustsNoText) {
   expect_in("script-src 'sha256-" + hash.out + "'", page);
 }
 
+// w = h (1 − 1/√3) at the snap, whatever E.
+TEST_F(SweepProgramTest, MapsMayShowAMonitorAtTheEvents) {
+  plan("title = \"t\"\ndeck = \"truss.toml\"\n[grid]\nmaterial.bar.E = [1e5, 2e5]\nsection.bar.A = [1.0, 2.0]\n");
+  ASSERT_EQ(run("sweep run study --quiet").status, 0);
+  ASSERT_EQ(run("sweep collect study --monitor w").status, 0);
+  const std::string page = content(study() / "report.html");
+  expect_in("<h2>w of the snap</h2>", page);
+  expect_in("w of the snap is 0.211325", page);
+  EXPECT_EQ(page.find("<h2>λ of the snap</h2>"), std::string::npos);
+  expect_error("sweep collect study --monitor v", "which no case has");
+}
+
 TEST_F(SweepProgramTest, ScriptsForEnginesQuoteAnyName) {
   plan(stiffness_sweep);
   const std::string name = "it's {} \"a\" $(study) \\";
