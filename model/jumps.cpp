@@ -35,6 +35,7 @@ std::vector<OnPath> stable_at(const Model& model, const Record& record, double l
   std::vector<OnPath> found;
   for (const std::size_t i : crossings(record, lambda)) {
     const RecordPoint &a = record.points[i], &b = record.points[i + 1];
+    if (record.stage_number(a.branch) != model.stage()) continue;
     const bool stable = a.count.stability == Stability::stable || b.count.stability == Stability::stable;
     if (!stable || (but && (i == *but || i + 1 == *but))) continue;
     auto there = at_crossing(model, record, i, lambda);
@@ -65,9 +66,12 @@ struct Loss {
 
 // Of an event of a record or of a tracer.
 bool loses_stability(const auto& event) {
-  const bool kind = event.kind == EventKind::limit_point || event.kind == EventKind::contact_limit_point ||
-                    event.kind == EventKind::branch_point;
-  return kind && !event.unconfirmed && event.unstable_before == 0 && event.unstable_after.value_or(0) > 0;
+  const bool is_inside = event.kind != EventKind::start && event.kind != EventKind::end;
+  return is_inside && !event.unconfirmed && event.unstable_before == 0 && event.unstable_after.value_or(0) > 0;
+}
+
+std::shared_ptr<RecordJump> not_found(double lambda, const char* why) {
+  return std::make_shared<RecordJump>(RecordJump{.reason = "not_found", .why = why, .lambda = lambda});
 }
 
 class Falls {
@@ -80,19 +84,21 @@ class Falls {
                                        [](const deck::Member& one) { return one.theory == Theory::essenburg; });
     left_ = static_cast<Index>((essenburg ? more_work_for_essenburg : more_work) /
                                static_cast<double>(std::max(mesh_.size(), Index{1})));
-    for (const RecordPoint& point : record.points) left_ += cheaper * (point.iterations + besides);
+    for (const RecordPoint& point : record.points)
+      if (record.stage_number(point.branch) == model.stage()) left_ += cheaper * (point.iterations + besides);
   }
 
-  bool can_fall() const { return mesh_.is_complete(); }
-
-  // Where the structure falls to from an event at a point of the record; null where it stays beside it. From a branch
-  // point in both senses.
+  // Where the structure falls to from an event at a point of the record; null where it stays beside a branch point.
+  // From a branch point in both senses.
   std::shared_ptr<const RecordJump> from(const RecordEvent& event, std::size_t point) {
+    if (!mesh_.is_complete()) return not_found(event.lambda, "the deck's mesh has unknowns that its contact does not");
     if (is_followed(event, point)) return nullptr;
     const Loss loss = recorded(event, point, 1);
+    if (!loss.behind) return not_found(event.lambda, "no direction is known in which the structure leaves the event");
     State rest, other_rest;
     auto jump = fall_and_back(event, point, loss, rest);
-    if (event.kind != EventKind::branch_point) return jump;
+    if (event.kind != EventKind::branch_point)
+      return jump ? jump : not_found(event.lambda, "pushed along its path, the structure returned to the event");
     Loss opposite = loss;
     opposite.sense = -1.0;
     auto other = fall_and_back(event, point, opposite, other_rest);
@@ -107,6 +113,22 @@ class Falls {
     several->lambda = event.lambda;
     several->destinations = {std::move(*jump), std::move(*other)};
     return several;
+  }
+
+  // The event at a point that is stable on the side one comes from and unstable behind.
+  // Of several the one at which λ turns, else one that is no change of contact.
+  const RecordEvent* loss_at(std::size_t point, int direction) const {
+    const RecordEvent* found = nullptr;
+    for (const RecordEvent& event : record_.events) {
+      if (event.branch != record_.points[point].branch || event.step != record_.points[point].step) continue;
+      const auto &here = direction > 0 ? event.unstable_before : event.unstable_after,
+                 &behind = direction > 0 ? event.unstable_after : event.unstable_before;
+      if (event.kind == EventKind::start || event.kind == EventKind::end || here != 0 || behind.value_or(0) == 0)
+        continue;
+      const bool turns = event.kind == EventKind::limit_point || event.kind == EventKind::contact_limit_point;
+      if (found == nullptr || turns || changes_contact(found->kind)) found = &event;
+    }
+    return found;
   }
 
  private:
@@ -162,7 +184,23 @@ class Falls {
       if (event.kind == EventKind::branch_point && next.branch == event.branch) push_along_mode(event, loss);
       break;
     }
+    if (!loss.behind) push_beyond_end(event, point, onwards, loss);
     return loss;
+  }
+
+  // No state of the path says where it leaves the event: along the mode of a branch point, else on from where it came.
+  void push_beyond_end(const RecordEvent& event, std::size_t point, int onwards, Loss& loss) const {
+    if (event.kind == EventKind::branch_point) return push_along_mode(event, loss);
+    const RecordPoint& here = record_.points[point];
+    for (auto i = static_cast<std::ptrdiff_t>(point) - onwards;
+         i >= 0 && i < static_cast<std::ptrdiff_t>(record_.points.size()); i -= onwards) {
+      const RecordPoint& before = record_.points[static_cast<std::size_t>(i)];
+      if (before.branch != event.branch) return;
+      if (!is_behind(before.state, here.state)) continue;
+      loss.behind = before.state;
+      loss.sense = -1.0;
+      return;
+    }
   }
 
   // The path goes on through the branch point, along which a perfect structure would stay as it is.
@@ -327,22 +365,6 @@ class Falls {
     return there && mesh_.distance(mesh_.unknowns(there->state), mesh_.unknowns(first.state)) <= same;
   }
 
-  // The event at a point that is stable on the side one comes from and unstable behind.
-  // Of several the one at which λ turns.
-  const RecordEvent* loss_at(std::size_t point, int direction) const {
-    const RecordEvent* found = nullptr;
-    for (const RecordEvent& event : record_.events) {
-      if (event.branch != record_.points[point].branch || event.step != record_.points[point].step) continue;
-      const auto &here = direction > 0 ? event.unstable_before : event.unstable_after,
-                 &behind = direction > 0 ? event.unstable_after : event.unstable_before;
-      if (event.kind == EventKind::start || event.kind == EventKind::end || here != 0 || behind.value_or(0) == 0)
-        continue;
-      const bool turns = event.kind == EventKind::limit_point || event.kind == EventKind::contact_limit_point;
-      if (found == nullptr || turns) found = &event;
-    }
-    return found;
-  }
-
   const Model& model_;
   const Record& record_;
   DeckMesh mesh_;
@@ -359,20 +381,15 @@ std::optional<std::size_t> point_of(const Record& record, const RecordEvent& eve
 }  // namespace
 
 void add_jumps(const Model& model, Record& record) {
-  const bool falls = model.whole_deck().path.jumps && record.stages.empty() && !model.in_increments();
-  if (!falls) return;
-  Falls of(model, record);
+  if (!model.whole_deck().path.jumps || model.in_increments()) return;
+  std::optional<Falls> of;
+  Index stage = -1;
   for (RecordEvent& event : record.events) {
     const auto point = loses_stability(event) ? point_of(record, event) : std::nullopt;
     if (!point) continue;
-    if (of.can_fall()) {
-      event.jump = of.from(event, *point);
-    } else {
-      event.jump =
-          std::make_shared<RecordJump>(RecordJump{.reason = "not_found",
-                                                  .why = "the deck's mesh has unknowns that its contact does not",
-                                                  .lambda = event.lambda});
-    }
+    if (const Index now = record.stage_number(event.branch); std::exchange(stage, now) != now)
+      of.emplace(model.at_stage(now), record);
+    if (!changes_contact(event.kind) || of->loss_at(*point, 1) == &event) event.jump = of->from(event, *point);
   }
 }
 

@@ -172,6 +172,20 @@ TEST(Jump, IsFoundWhereThePathDoesNotPass) {
   EXPECT_NEAR(snap.jump->on_return->lambda, -snap.lambda, 1e-9);
 }
 
+// The deck stops the path at the event itself, so that no point of the path lies beyond.
+TEST(Jump, IsFoundWhereThePathStopsAtTheEvent) {
+  const TracedDeck traced(truss("-2.5"), {"path.stop.event=[\"limit-point\"]"});
+  const RecordEvent& snap = event_of(traced, EventKind::limit_point);
+  ASSERT_TRUE(snap.jump);
+  EXPECT_NEAR(snap.jump->monitors.at(0), -2.1547005383793, 1e-9);
+  EXPECT_NEAR(snap.jump->energy_released, 7.3888900263118, 1e-9);
+  EXPECT_FALSE(snap.jump->on_branch);
+  ASSERT_TRUE(snap.jump->on_return);
+  EXPECT_NEAR(snap.jump->on_return->lambda, -snap.lambda, 1e-9);
+  expect_the_fall_of_the_channel(
+      event_of(TracedDeck(channel, {"path.stop.event=[\"limit-point\"]"}), EventKind::limit_point));
+}
+
 // The column traced to just behind its limit point alone: contact that slides is begun where the structure comes to
 // rest, and followed back from there.
 TEST(Jump, BeginsContactThatSlidesWhereThePathDoesNotPass) {
@@ -254,6 +268,10 @@ TEST(Jump, OfABranchPointWhoseBranchIsUnstable) {
     EXPECT_EQ(sway.jump->reason, "");
     EXPECT_NEAR(sway.jump->monitors.at(0), -0.5 * (std::sqrt(23.0) + std::sqrt(31.0)) - 5.0, 1e-9);
   }
+  const TracedDeck stopped(steep_truss("primary"), {"path.stop.event=[\"branch-point\"]"});
+  const RecordEvent& sway = event_of(stopped, EventKind::branch_point);
+  ASSERT_TRUE(sway.jump);
+  EXPECT_NEAR(sway.jump->monitors.at(0), -0.5 * (std::sqrt(23.0) + std::sqrt(31.0)) - 5.0, 1e-9);
 }
 
 // Above a floor z = −2.5 + 0.2 x it falls to the right or to the left. On the floor Π has a minimum at x = 4.4481035
@@ -326,6 +344,77 @@ path = { step = 0.05, jumps = true, stop = { lambda = [-1.0, 0.5] } }
 member.c = { from = "A", to = "B", theory = "elastica", elements = 16, material = "m", section = "s" }
 )toml");
   EXPECT_FALSE(event_of(traced, EventKind::branch_point).jump);
+}
+
+// The load of the truss is brought on in two stages, with λ = 0 at the start of each.
+TEST(Jump, OfAStageIsThatOfTheWholeLoad) {
+  const TracedDeck whole(truss("-2.5"));
+  const TracedDeck staged(truss("-2.5") + R"toml(
+[[stage]]
+name = "first"
+drives = ["load.0"]
+stop = { lambda = [-1.0, 0.7] }
+[[stage]]
+name = "second"
+drives = ["load.0"]
+)toml");
+  const RecordEvent &snap = event_of(staged, EventKind::limit_point),
+                    &expected = event_of(whole, EventKind::limit_point);
+  EXPECT_NEAR(snap.lambda, expected.lambda - 0.7, 1e-9);
+  ASSERT_TRUE(snap.jump);
+  EXPECT_NEAR(snap.jump->monitors.at(0), -2.1547005383793, 1e-9);
+  EXPECT_NEAR(snap.jump->energy_released, 7.3888900263118, 1e-9);
+  ASSERT_TRUE(snap.jump->on_return);
+  EXPECT_NEAR(snap.jump->on_return->lambda, -expected.lambda - 0.7, 1e-9);
+}
+
+// A buckled strip is pushed through by a finger, which leaves it where it is unstable: no point of the path beyond
+// moves it. The strip falls into the mirror image of its first shape: with sin(slope/2) = k sin φ its ends are nearer
+// by 2 − 2 E(k)/K(k) of its length, and its middle has moved by k/K(k). The imperfection adds to one what it takes off
+// the other, to first order.
+TEST(Jump, IsFoundWhereAMovingWallLeavesAnUnstableStrip) {
+  const TracedDeck traced(R"toml(
+title = "A buckled strip, pushed off its middle"
+material.steel = { E = 2.0e5 }
+section.strip = { shape = "rectangle", width = 10.0, height = 0.3 }
+point = { left = [0.0, 0.0], right = [100.0, 0.0] }
+support = { left = ["x", "z", "rotation"], right = ["z", "rotation"] }
+prescribed = [{ at = "right", x = -0.5, constant = true }]
+path = { step = 0.1, jumps = true, stop = { lambda = [-0.1, 16.0] } }
+monitor = [{ name = "mid", at = "strip:0.5", component = "z" }]
+[member.strip]
+from = "left"
+to = "right"
+theory = "elastica"
+material = "steel"
+section = "strip"
+elements = 40
+imperfection = { shape = "sine", amplitude = 0.02, waves = 1 }
+[[wall]]
+name = "finger"
+outline = { type = "circle", centre = [40.0, 10.0], radius = 2.0 }
+motion = { z = -1.0 }
+)toml");
+  // Shortened by N/EA besides, N = (4 K/L)² EI.
+  double low = 0.0, high = 0.5;
+  while (high - low > 1e-15) {
+    const double k = 0.5 * (low + high), K = std::comp_ellint_1(k);
+    const double strain = 16.0 * K * K / 1e4 * 0.3 * 0.3 / 12.0;
+    (1.0 - (1.0 - strain) * (2.0 * std::comp_ellint_2(k) / K - 1.0) < 0.005 ? low : high) = k;
+  }
+  const double middle = 100.0 * low / std::comp_ellint_1(low);
+  const RecordEvent& snap = event_of(traced, EventKind::contact_limit_point);
+  EXPECT_EQ(snap.unstable_after, 1);
+  ASSERT_TRUE(snap.jump);
+  EXPECT_EQ(snap.jump->reason, "");
+  const double first = traced.record().points.front().monitors.at(0), other = snap.jump->monitors.at(0);
+  EXPECT_NEAR(0.5 * (first - other), middle, 1e-4);
+  EXPECT_NEAR(first + other, 0.0, 0.01);
+  EXPECT_EQ(snap.jump->contact_pattern, "");
+  EXPECT_GT(snap.jump->energy_released, 0.0);
+  const auto told = std::count_if(traced.record().events.begin(), traced.record().events.end(),
+                                  [](const RecordEvent& event) { return event.jump != nullptr; });
+  EXPECT_EQ(told, 1);
 }
 
 }  // namespace arcwall::jump_test

@@ -215,9 +215,10 @@ TEST(Search, DependsOnItsSeedAlone) {
 }
 
 TEST(Search, SurvivesTheCheckpoint) {
-  const Record whole = TracedDeck(truss).record();
-  EXPECT_EQ(all_of(taken_up(truss, 1)), all_of(whole));
-  EXPECT_EQ(all_of(taken_up(truss, 7)), all_of(whole));
+  const std::string deck = truss + "jumps = true\n";
+  const Record whole = TracedDeck(deck).record();
+  EXPECT_EQ(all_of(taken_up(deck, 1)), all_of(whole));
+  EXPECT_EQ(all_of(taken_up(deck, 7)), all_of(whole));
 }
 
 // What a checkpoint says of a find must fit the run.
