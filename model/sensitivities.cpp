@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "continuation/answers/event_derivative.hpp"
@@ -53,6 +54,9 @@ constexpr std::size_t longer_step = 0, natural = 1;
 
 // Sections and materials are measured by themselves: a wire's second moment is next to nothing beside L⁴.
 bool is_measured_by_itself(const deck::DeckNumber& number) {
+  if (!number.enters.empty())
+    return std::any_of(number.enters.begin(), number.enters.end(),
+                       [](const auto& entered) { return is_measured_by_itself(entered.first); });
   const auto is_in = [&](const char* table) { return number.key.starts_with(table); };
   return (is_in("section.") || is_in("material.")) && number.unit.force == 0 && number.value != 0.0;
 }
@@ -63,8 +67,15 @@ bool has_sensitivity(EventKind kind) {
 
 }  // namespace
 
+// A variable's makes none of the numbers that it enters change by more than theirs.
 double natural_step(const deck::DeckNumber& number, const Structure& structure) {
   constexpr double of_force = 3e-3, of_value = 1e-3, of_unit = 1e-5;
+  if (!number.enters.empty()) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [entered, slope] : number.enters)
+      least = std::min(least, natural_step(entered, structure) / std::abs(slope));
+    return least;
+  }
   const double unit = std::pow(structure.length_scale(), number.unit.length) *
                       std::pow(std::max(structure.force_scale(), 1e-300), number.unit.force);
   if (is_measured_by_itself(number)) return of_value * std::abs(number.value);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/text.hpp"
+#include "model/deck/arithmetic.hpp"
 #include "model/deck/synonyms.hpp"
 
 namespace arcwall::deck {
@@ -130,8 +131,12 @@ void Findings::throw_if_any() const {
   throw InputError(one_for_each_cause(in_order));
 }
 
-Cursor::Cursor(const Value& table, std::string path, Findings& findings)
-    : value_(table), path_(std::move(path)), findings_(findings), is_known_(table.items.size(), false) {}
+Cursor::Cursor(const Value& table, std::string path, Findings& findings, Arithmetic* arithmetic)
+    : value_(table),
+      path_(std::move(path)),
+      findings_(findings),
+      arithmetic_(arithmetic),
+      is_known_(table.items.size(), false) {}
 
 const Value* Cursor::find(std::string_view key, Presence presence) {
   known_.emplace_back(key);
@@ -153,26 +158,34 @@ bool Cursor::accept(const Value& value, Value::Kind kind, const std::string& pat
   return value.kind == kind;
 }
 
-bool Cursor::accept_number(const Value& value, const std::string& path, const Requirement& requirement) {
-  std::string cure = std::string("give ") + requirement.words;
-  if (const std::string number = number_in_quotes(value); !number.empty()) cure = "write " + number + " without quotes";
-  if (value.kind != Value::Kind::integer && value.kind != Value::Kind::number) {
-    findings_.add(value.position, path, shown(value) + " is of the wrong type", cure);
-  } else if (!std::isfinite(value.number)) {
-    findings_.add(value.position, path, shown(value) + " is not a finite number", cure);
-  } else if (!requirement.holds(value.number)) {
-    findings_.add(value.position, path, shown(value) + " is out of range", cure);
+std::optional<double> Cursor::number_in(const Value& value, const std::string& path, const Requirement& requirement,
+                                        const std::string& wanted) {
+  std::string cure = "give " + wanted;
+  const std::string number_meant = number_in_quotes(value);
+  if (!number_meant.empty()) cure = "write " + number_meant + " without quotes";
+  const bool has_decimal_comma = !number_meant.empty() && value.string.find(',') != std::string::npos;
+  const bool is_formula = arithmetic_ != nullptr && value.kind == Value::Kind::string && !has_decimal_comma;
+  const std::optional<double> number = is_formula ? arithmetic_->number(value, path, findings_) : value.number;
+  if (!number) return std::nullopt;
+  const std::string text = is_formula ? shown(value) + " = " + round_trip(*number) : shown(value);
+  if (!is_formula && value.kind != Value::Kind::integer && value.kind != Value::Kind::number) {
+    findings_.add(value.position, path, text + " is of the wrong type", cure);
+  } else if (!std::isfinite(*number)) {
+    findings_.add(value.position, path, text + " is not a finite number", cure);
+  } else if (!requirement.holds(*number)) {
+    findings_.add(value.position, path, text + " is out of range", cure);
   } else {
-    return true;
+    return number;
   }
-  return false;
+  return std::nullopt;
 }
 
 bool Cursor::number(std::string_view key, Presence presence, const Requirement& requirement, double& target) {
   const Value* found = find(key, presence);
-  if (found == nullptr || !accept_number(*found, path_of(key), requirement)) return false;
-  target = found->number;
-  return true;
+  if (found == nullptr) return false;
+  const std::optional<double> number = number_in(*found, path_of(key), requirement, requirement.words);
+  if (number) target = *number;
+  return number.has_value();
 }
 
 bool Cursor::number(std::string_view key, Presence presence, const Requirement& requirement,
@@ -184,13 +197,20 @@ bool Cursor::number(std::string_view key, Presence presence, const Requirement& 
 }
 
 bool Cursor::integer(std::string_view key, Presence presence, const IntegerRange& range, int& target) {
-  const Value* found = find_of_kind(key, presence, Value::Kind::integer, range_words(range));
+  const Value* found = find(key, presence);
   if (found == nullptr) return false;
-  const bool right = found->integer >= range.low && found->integer <= range.high;
+  const bool is_formula = arithmetic_ != nullptr && found->kind == Value::Kind::string;
+  if (!is_formula && !accept(*found, Value::Kind::integer, path_of(key), range_words(range))) return false;
+  const std::optional<double> number = number_in(*found, path_of(key), any_number, range_words(range));
+  if (!number) return false;
+  const bool is_whole = std::trunc(*number) == *number;
+  const bool right = is_whole && *number >= range.low && *number <= range.high;
   if (right) {
-    target = static_cast<int>(found->integer);
+    target = static_cast<int>(*number);
   } else {
-    findings_.add(found->position, path_of(key), shown(*found) + " is out of range", "give " + range_words(range));
+    const std::string text = is_formula ? shown(*found) + " = " + round_trip(*number) : shown(*found);
+    findings_.add(found->position, path_of(key), text + (is_whole ? " is out of range" : " is no whole number"),
+                  "give " + range_words(range));
   }
   return right;
 }
@@ -230,9 +250,9 @@ bool Cursor::vector(std::string_view key, Presence presence, Vector& target) {
                   numbers.empty() ? "give " + wanted : "a decimal comma parts two numbers; write " + numbers);
     return false;
   }
-  const bool x = accept_number(found->items[0], path_of(key) + ".0", any_number);
-  const bool z = accept_number(found->items[1], path_of(key) + ".1", any_number);
-  if (x && z) target = {found->items[0].number, found->items[1].number};
+  const auto x = number_in(found->items[0], path_of(key) + ".0", any_number, any_number.words);
+  const auto z = number_in(found->items[1], path_of(key) + ".1", any_number, any_number.words);
+  if (x && z) target = {*x, *z};
   return x && z;
 }
 
@@ -242,8 +262,10 @@ bool Cursor::numbers(std::string_view key, Presence presence, std::vector<double
   bool right = true;
   std::vector<double> values;
   for (std::size_t i = 0; i < found->items.size(); ++i) {
-    right = accept_number(found->items[i], path_of(key) + "." + std::to_string(i), any_number) && right;
-    values.push_back(found->items[i].number);
+    const auto number =
+        number_in(found->items[i], path_of(key) + "." + std::to_string(i), any_number, any_number.words);
+    right = right && number;
+    values.push_back(number.value_or(0.0));
   }
   if (values.empty()) {
     findings_.add(found->position, path_of(key), "the array is empty", "give at least one number");
@@ -280,10 +302,10 @@ bool Cursor::references(std::string_view key, Presence presence, std::vector<Ref
   return right;
 }
 
-std::optional<Cursor> Cursor::table(std::string_view key, Presence presence) {
+std::optional<Cursor> Cursor::table(std::string_view key, Presence presence, const std::string& index) {
   const Value* found = find_of_kind(key, presence, Value::Kind::table, "a table");
   if (found == nullptr) return std::nullopt;
-  return Cursor(*found, path_of(key), findings_);
+  return Cursor(*found, path_of(key) + index, findings_, arithmetic_);
 }
 
 std::vector<Cursor> Cursor::tables(std::string_view key) {
@@ -294,7 +316,7 @@ std::vector<Cursor> Cursor::tables(std::string_view key) {
   for (std::size_t i = 0; i < found->items.size(); ++i) {
     const std::string path = path_of(key) + "." + std::to_string(i);
     if (accept(found->items[i], Value::Kind::table, path, "a table"))
-      result.emplace_back(found->items[i], path, findings_);
+      result.emplace_back(found->items[i], path, findings_, arithmetic_);
   }
   return result;
 }
@@ -309,7 +331,7 @@ std::vector<Cursor> Cursor::named_tables(std::string_view key) {
       findings_.add(item.key_position, path, "is no name", "use letters, digits, _ and - only");
     }
     if (accept(item, Value::Kind::table, path, "a table [" + path_of(key) + ".NAME]")) {
-      result.emplace_back(item, path, findings_);
+      result.emplace_back(item, path, findings_, arithmetic_);
     }
   }
   return result;

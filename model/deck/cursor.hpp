@@ -15,6 +15,8 @@
 
 namespace arcwall::deck {
 
+class Arithmetic;
+
 /// Collects everything that is wrong with one deck.
 class Findings {
  public:
@@ -70,8 +72,9 @@ struct Reference {
 /// true, having set the target, only if the value is there and right.
 class Cursor {
  public:
-  /// `table` is a table; `path` is its dotted key. Both references must outlive this.
-  Cursor(const Value& table, std::string path, Findings& findings);
+  /// `table` is a table; `path` is its dotted key. Texts in place of numbers are formulas if there is arithmetic. All
+  /// references must outlive this.
+  Cursor(const Value& table, std::string path, Findings& findings, Arithmetic* arithmetic = nullptr);
 
   /// The value, or null; a missing required key is reported.
   const Value* find(std::string_view key, Presence presence);
@@ -102,7 +105,8 @@ class Cursor {
     return value.has_value();
   }
 
-  std::optional<Cursor> table(std::string_view key, Presence presence);
+  /// `index`: what the paths of its keys have behind its own.
+  std::optional<Cursor> table(std::string_view key, Presence presence, const std::string& index = {});
 
   /// The tables of an array of tables, in their order; empty if the key is not there.
   std::vector<Cursor> tables(std::string_view key);
@@ -130,13 +134,15 @@ class Cursor {
 
  private:
   const Value* lookup(std::string_view key);
-  bool accept_number(const Value& value, const std::string& path, const Requirement& requirement);
+  std::optional<double> number_in(const Value& value, const std::string& path, const Requirement& requirement,
+                                  const std::string& wanted);
   bool accept(const Value& value, Value::Kind kind, const std::string& path, const std::string& wanted);
   const Value* find_of_kind(std::string_view key, Presence presence, Value::Kind kind, const std::string& wanted);
 
   const Value& value_;
   std::string path_;
   Findings& findings_;
+  Arithmetic* arithmetic_;
   std::vector<std::string> known_{};  // every key that was asked for, there or not
   std::vector<bool> is_known_;        // for each item of the table
   std::size_t next_ = 0;              // keys are mostly asked for in their order, which makes long tables fast

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -26,6 +27,26 @@ struct Units {
 
   bool operator==(const Units&) const = default;
 };
+
+/// A number that formulas use by its name.
+struct Variable {
+  std::string name{};
+  Position position{};
+  double value = 0.0;
+
+  bool operator==(const Variable&) const = default;
+};
+
+/// What the deck has in place of a number.
+struct Formula {
+  std::string text{};
+  double value = 0.0;  ///< the number
+
+  bool operator==(const Formula&) const = default;
+};
+
+/// By their keys as in `--set`.
+using Formulas = std::map<std::string, Formula>;
 
 struct Material {
   std::string name{};
@@ -460,6 +481,7 @@ struct Deck {
   std::string title{};
   std::string description{};
   Units units{};
+  std::vector<Variable> variables{};
   std::vector<Material> materials{};
   std::vector<Section> sections{};
   std::vector<Point> points{};
@@ -474,6 +496,7 @@ struct Deck {
   std::vector<Stage> stages{};  ///< empty: one that drives all that is not constant
   std::vector<Monitor> monitors{};
   std::optional<EventToFollow> curve{};
+  Formulas formulas{};
 
   bool operator==(const Deck&) const = default;
 };

@@ -233,8 +233,8 @@ bool KeyReader::is_node(std::string_view key, const Place& at) {
 
 // --- tables ---------------------------------------------------------------------------------------------------------
 
-bool KeyReader::table(const Key& key, Form, const std::function<void(Keys&)>& keys_of_table, std::string_view) {
-  auto found = table_.table(key.name, key.presence);
+bool KeyReader::table(const Key& key, Form form, const std::function<void(Keys&)>& keys_of_table, std::string_view) {
+  auto found = table_.table(key.name, key.presence, form == Form::only_element ? ".0" : "");
   if (!found) return false;
   KeyReader reader(*found, names_, deck_);
   keys_of_table(reader);

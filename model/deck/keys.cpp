@@ -1,5 +1,7 @@
 #include "model/deck/keys.hpp"
 
+#include <functional>
+
 #include "core/text.hpp"
 #include "model/deck/value.hpp"
 
@@ -30,16 +32,29 @@ std::string array_text(const List& list, ToText to_text) {
 
 struct TomlText {
   bool empty_is_none;
+  const std::function<std::string(const std::string&, double)>& formula_of;
 
-  Text operator()(const std::optional<double>* value) const { return *value ? Text(float_text(**value)) : Text(); }
-  Text operator()(const std::optional<int>* value) const { return *value ? Text(std::to_string(**value)) : Text(); }
+  std::string number(double value, const std::string& text, const std::string& key = {}) const {
+    const std::string formula = formula_of ? formula_of(key, value) : std::string();
+    return formula.empty() ? text : in_quotes(formula);
+  }
+  std::string numbers(const std::vector<double>& values) const {
+    std::size_t i = 0;
+    return array_text(values,
+                      [&](double value) { return number(value, float_text(value), "." + std::to_string(i++)); });
+  }
+
+  Text operator()(const std::optional<double>* value) const {
+    return *value ? Text(number(**value, float_text(**value))) : Text();
+  }
+  Text operator()(const std::optional<int>* value) const {
+    return *value ? Text(number(**value, std::to_string(**value))) : Text();
+  }
   Text operator()(const bool* value) const { return *value ? "true" : "false"; }
   Text operator()(const std::string* value) const { return in_quotes(*value); }
-  Text operator()(const Vector* value) const { return "[" + float_text(value->x) + ", " + float_text(value->z) + "]"; }
+  Text operator()(const Vector* value) const { return numbers({value->x, value->z}); }
   // An array that is there has a number.
-  Text operator()(const std::vector<double>* values) const {
-    return values->empty() ? Text() : Text(array_text(*values, float_text));
-  }
+  Text operator()(const std::vector<double>* values) const { return values->empty() ? Text() : Text(numbers(*values)); }
   Text operator()(const Place* value) const { return in_quotes(to_text(*value)); }
   Text operator()(const std::optional<std::string>* word) const { return *word ? Text(in_quotes(**word)) : Text(); }
   Text operator()(const std::vector<std::string>* texts) const {
@@ -50,8 +65,8 @@ struct TomlText {
 
 }  // namespace
 
-Text Keys::toml_text(const Target& target, const Declared& declared) {
-  return std::visit(TomlText{declared.empty == EmptyList::refused}, target);
+Text Keys::toml_text(const Target& target, const Declared& declared, const FormulaOf& formula_of) {
+  return std::visit(TomlText{declared.empty == EmptyList::refused, formula_of}, target);
 }
 
 }  // namespace arcwall::deck

@@ -53,8 +53,9 @@ enum class Named { material, section, point, member, wall, spring, monitor, colu
 /// Whether an empty list stands for none, or none is said by leaving the key out.
 enum class EmptyList { means_none, refused };
 
-/// How a table is written: `[units]`, `profile.type = "flat"`, or `sine = { rise = 1.0, waves = 2 }`.
-enum class Form { header, dotted, in_line };
+/// How a table is written: `[units]`, `profile.type = "flat"`, or `sine = { rise = 1.0, waves = 2 }`. One that is read
+/// in place of an array is its only element.
+enum class Form { header, dotted, in_line, only_element };
 
 /// Tables of one key: `[[load]]` or `[member.NAME]`.
 enum class ListForm { array, named };
@@ -264,8 +265,11 @@ class Keys {
   };
   virtual bool declare(const Key& key, const Target& target, const Declared& declared) = 0;
 
-  /// The value as TOML has it; nothing if there is none.
-  static std::optional<std::string> toml_text(const Target& target, const Declared& declared);
+  /// The value as TOML has it; nothing if there is none. `formula_of`: what a number is written as, by its value and
+  /// what its key has after the target's, `.1` in an array; empty: the number.
+  using FormulaOf = std::function<std::string(const std::string&, double)>;
+  static std::optional<std::string> toml_text(const Target& target, const Declared& declared,
+                                              const FormulaOf& formula_of = {});
 
   /// One of several tables or keys.
   struct Entry {

@@ -186,7 +186,7 @@ void imperfections_key(Keys& keys, Member& member) {
     return;
   }
   keys.table(
-      key, Form::in_line,
+      key, Form::only_element,
       [&](Keys& one) {
         Imperfection imperfection{.position = one.position()};
         imperfection_keys(one, imperfection);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/text.hpp"
+#include "model/deck/arithmetic.hpp"
 #include "model/deck/key_list.hpp"
 #include "model/deck/reader.hpp"
 #include "model/deck/synonyms.hpp"
@@ -73,7 +74,7 @@ Dimension unit_of(const std::string& key) {
 std::variant<DeckPart, NoNumber> part_of(const Value& root, const std::string& key) {
   const Value* at = &root;
   std::string written, before;
-  for (const std::string& part : split_at_dots(key)) {
+  for (const std::string& part : with_table_of_variables(root, split_at_dots(key))) {
     const Step next = step_into(*at, written, part);
     if (next.to == nullptr) return no_such_part(*at, before, part);
     at = next.to;
@@ -86,7 +87,7 @@ std::variant<DeckPart, NoNumber> part_of(const Value& root, const std::string& k
 std::string written_key(const Value& root, const std::string& key) {
   const Value* at = &root;
   std::string written;
-  for (const std::string& part : split_at_dots(key)) {
+  for (const std::string& part : with_table_of_variables(root, split_at_dots(key))) {
     const Step next = at == nullptr ? Step() : step_into(*at, written, part);
     at = next.to;
     written += (written.empty() ? "" : ".") + (at == nullptr ? part : next.written);
@@ -94,14 +95,12 @@ std::string written_key(const Value& root, const std::string& key) {
   return written;
 }
 
-// The whole document is asked where nothing is there, for what would be right.
-std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string& key) {
-  Value root = parse_toml(to_toml(deck, key.substr(0, key.find('.'))), deck.source.file);
-  auto part = part_of(root, key);
-  if (std::holds_alternative<NoNumber>(part)) {
-    root = parse_toml(to_toml(deck), deck.source.file);
-    part = part_of(root, key);
-  }
+namespace {
+
+constexpr std::string_view of_variables = "variables.";
+
+std::variant<DeckNumber, NoNumber> number_in(const Value& root, const std::string& key) {
+  const auto part = part_of(root, key);
   if (const auto* none = std::get_if<NoNumber>(&part)) return *none;
   const auto& [at, written] = std::get<DeckPart>(part);
   if (at->kind == Value::Kind::integer)
@@ -113,6 +112,27 @@ std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string
                                 ? "name a part of it; elements of an array count from 0"
                                 : "name a number of the deck, as in material.steel.E"};
   return DeckNumber{.key = written, .value = at->number, .unit = unit_of(written)};
+}
+
+}  // namespace
+
+// The whole document is asked where nothing is there, for what would be right, and for variables.
+std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string& key) {
+  Deck numbers = deck;
+  numbers.formulas.clear();
+  Value root = parse_toml(to_toml(numbers, key.substr(0, key.find('.'))), deck.source.file);
+  auto found = number_in(root, key);
+  if (std::holds_alternative<NoNumber>(found)) {
+    root = parse_toml(to_toml(numbers), deck.source.file);
+    found = number_in(root, key);
+  }
+  auto* const number = std::get_if<DeckNumber>(&found);
+  if (number == nullptr || !number->key.starts_with(of_variables)) return found;
+  root = parse_toml(to_toml(numbers), deck.source.file);
+  for (const auto& [other, slope] : slopes_of_formulas(deck, number->key.substr(of_variables.size())))
+    if (auto entered = number_in(root, other); !other.starts_with(of_variables))
+      if (auto* const one = std::get_if<DeckNumber>(&entered)) number->enters.emplace_back(std::move(*one), slope);
+  return found;
 }
 
 Deck with_number(const Deck& deck, const DeckNumber& number, double value) {

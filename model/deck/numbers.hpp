@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "model/deck/keys.hpp"
 #include "model/deck/value.hpp"
@@ -13,6 +15,8 @@ struct DeckNumber {
   std::string key{};  ///< as in `--set`, with indices for the names of walls and loads
   double value = 0.0;
   Dimension unit{};
+  /// The numbers that change with a variable, and how fast.
+  std::vector<std::pair<DeckNumber, double>> enters{};
 };
 
 /// Why a key names no such number or no part, and what would be right.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/text.hpp"
+#include "model/deck/arithmetic.hpp"
 #include "model/deck/cursor.hpp"
 #include "model/deck/deck_keys.hpp"
 #include "model/deck/key_list.hpp"
@@ -152,13 +153,16 @@ Deck read_root(const Value& value, Source source) {
     findings.add(value.position, "deck", "there is nothing in it", "begin with a deck of trace-path examples");
     findings.throw_if_any();
   }
-  Cursor root(value, "", findings);
+  Arithmetic arithmetic(value);
+  arithmetic.report_cycles(findings);
+  Cursor root(value, "", findings, &arithmetic);
   const Names names = names_in(value);
   KeyReader reader(root, names, deck);
   declare_keys(reader, deck);
   report_unknown_parts(value, findings);
   report_upright_walls(value, findings);
   findings.throw_if_any();
+  deck.formulas = arithmetic.formulas();
   return deck;
 }
 

@@ -1,6 +1,10 @@
-// Labels, materials, sections and points: what refers to nothing else.
+// Labels, variables, materials, sections and points: what refers to nothing else.
+#include <algorithm>
+
 #include "core/text.hpp"
 #include "model/deck/deck_keys.hpp"
+#include "model/deck/formula.hpp"
+#include "model/deck/key_list.hpp"
 #include "model/deck/value.hpp"
 
 namespace arcwall::deck {
@@ -13,6 +17,20 @@ constexpr Requirement poisson_ratio{[](double v) { return v > -1.0 && v < 0.5; }
 void unit_keys(Keys& keys, Units& units) {
   keys.text("length", units.length, "a label, e.g. `\"cm\"`");
   keys.text("force", units.force, "a label, e.g. `\"kN\"`");
+}
+
+// Names that formulas can have and that `--set` takes for nothing else.
+bool variable_key(Keys& keys, const Key& key, Variable& variable) {
+  const std::string name(key.name);
+  const std::vector<std::string>& words = words_of_formulas();
+  const auto is_part = [&](const DeclaredKey& declared) { return declared.table.empty() && declared.name == name; };
+  if (keys.reads() && !is_formula_name(name))
+    keys.report_key(key, "is no name of a variable", "begin with a letter; then use letters, digits and _ only");
+  else if (keys.reads() && std::find(words.begin(), words.end(), name) != words.end())
+    keys.report_key(key, "has another meaning in formulas", "give the variable another name");
+  else if (keys.reads() && std::any_of(declared_keys().begin(), declared_keys().end(), is_part))
+    keys.report_key(key, "is the name of a part of the deck", "give the variable another name");
+  return keys.number(key, variable.value, unit::none, any_number, "number, or formula in quotes");
 }
 
 void material_keys(Keys& keys, Material& material) {
@@ -67,6 +85,14 @@ void declare_sections(Keys& root, Deck& deck) {
   root.text(optional("description"), deck.description, "text");
   root.table(
       optional("units"), Form::header, [&](Keys& keys) { unit_keys(keys, deck.units); }, "labels of outputs");
+  if (!root.writes() || !deck.variables.empty())
+    root.table(
+        optional("variables"), Form::header,
+        [&](Keys& keys) {
+          keys.entries(deck.variables, &Variable::name,
+                       [&](const Key& key, Variable& variable) { return variable_key(keys, key, variable); });
+        },
+        "");
   root.named_tables(optional("material"), deck.materials, material_keys, "");
   root.named_tables(optional("section"), deck.sections, section_keys, "");
   root.table(

@@ -209,6 +209,14 @@ const Value* element_of(const Value& array, const std::string& part) {
   return named == array.items.end() ? nullptr : &*named;
 }
 
+std::vector<std::string> with_table_of_variables(const Value& root, std::vector<std::string> parts) {
+  const Value* const variables = find(root, "variables");
+  if (parts.size() == 1 && find(root, parts[0]) == nullptr && variables != nullptr &&
+      find(*variables, parts[0]) != nullptr)
+    parts.insert(parts.begin(), "variables");
+  return parts;
+}
+
 Value parse_toml(std::string_view text, const std::string& file) {
   toml::table table = parsed(text, file);
   return converted(table);
@@ -246,6 +254,7 @@ void assign(Value& root, const std::string& assignment, int number) {
   std::optional<Assignment> part = taken_apart(assignment, origin);
   if (!part) fail({.file = origin, .message = "is not one key=value", .cure = how_to_assign});
 
+  part->key = with_table_of_variables(root, std::move(part->key));
   const Position position{.assignment = number};
   Value* target = &root;
   std::string path, indexed;  // as it is given, and with indices of arrays

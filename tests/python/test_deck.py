@@ -141,3 +141,16 @@ def test_warnings_are_sentences(truss):
     truss["path.stop"] = {}
     truss["path.max_points"] = 5000
     assert isinstance(truss.warnings(), list)
+
+
+def test_variables_and_formulas(channel):
+    walls = {"wall.upper.profile.z": "gap / 2", "wall.lower.profile.z": "-gap / 2"}
+    deck = channel.copy({"variables": {"gap": 0.4}, **walls})
+    assert deck.check() == []
+    assert deck["gap"] == deck["variables.gap"] == 0.4
+    assert deck["wall.upper.profile.z"] == "gap / 2"
+    deck["gap"] = 0.5
+    assert deck["variables.gap"] == 0.5
+    assert 'z = "gap / 2"' in str(deck) and "gap = 0.5" in str(deck)
+    deck["wall.upper.profile.z"] = "gapp / 2"
+    assert "did you mean gap?" in str(deck.check()[0])

@@ -65,6 +65,27 @@ TEST_F(SweepProgramTest, LimitLoadsOfAllCasesAreCollected) {
   EXPECT_EQ(table(content(study() / "sweep.csv")).size(), 13u);
 }
 
+// The peak is proportional to Young's modulus, which is twice the variable.
+TEST_F(SweepProgramTest, VariablesGoByName) {
+  std::string deck = content(work() / "truss.toml") + "\n[variables]\nhalf = 25000.0\n";
+  deck.replace(deck.find("E = "), deck.find('\n', deck.find("E = ")) - deck.find("E = "), "E = \"2 * half\"");
+  put(work() / "truss.toml", deck);
+  plan("title = \"Bars\"\ndeck = \"truss.toml\"\n[grid]\nhalf = [2.5e4, 5e4, 1e5]\n");
+  ASSERT_EQ(run("sweep run study --jobs 2").status, 0);
+  ASSERT_EQ(run("sweep collect study").status, 0);
+  const auto rows = table(content(study() / "cases.csv"));
+  ASSERT_EQ(rows.size(), 4u);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double peak = 4.0 * std::stod(rows[i][1]) * 0.125 / (3.0 * std::sqrt(3.0) * std::pow(25.25, 1.5));
+    EXPECT_NEAR(std::stod(rows[i][7]), peak, 1e-9 * peak);
+  }
+  const std::string copy = content(study() / "cases" / "00001" / "deck.toml");
+  expect_in("E = \"2 * half\"", copy);
+  expect_in("half = 50000.0", copy);
+  EXPECT_NE(
+      plan_wrong("title = \"Bars\"\ndeck = \"truss.toml\"\n[grid]\nhalf = [1.0]\nvariables.half = [2.0]\n").status, 0);
+}
+
 TEST_F(SweepProgramTest, APlannedFolderStandsAlone) {
   plan(stiffness_sweep);
   EXPECT_EQ(names_in(study()), (std::set<std::string>{"cases.jsonl", "sweep.toml", "truss.toml"}));
