@@ -12,7 +12,12 @@ namespace {
 bool support_key(Keys& keys, const Key& key, Support& support, const Deck& deck) {
   if (keys.refers(key, Named::point) && !ends_a_member(deck, support.point))
     keys.report_key(key, "no member ends at this point", "support the end of a member");
-  keys.words(key, support.directions, direction_words, "is no direction", "the directions that are fixed");
+  if (keys.holds_array(key.name)) {
+    keys.words(key, support.directions, direction_words, "is no direction", "the directions that are fixed");
+    return true;
+  }
+  std::optional<Dof> across;
+  if (keys.word(key, across, symmetry_words, "a plane of symmetry")) support.directions = {*across, Dof::rotation};
   return true;
 }
 

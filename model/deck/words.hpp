@@ -63,6 +63,9 @@ inline constexpr Words<Dof, 5> direction_words{{{"x", Dof::x},
                                                 {"rotation", Dof::rotation},
                                                 {"thickness", Dof::thickness},
                                                 {"thickness2", Dof::thickness2}}};
+
+/// Planes of symmetry across an axis, which hold that direction and the rotation.
+inline constexpr Words<Dof, 2> symmetry_words{{{"symmetry-x", Dof::x}, {"symmetry-z", Dof::z}}};
 inline constexpr Words<Side, 2> side_words{{{"above", Side::above}, {"below", Side::below}}};
 inline constexpr Words<Keep, 2> keep_words{{{"outside", Keep::outside}, {"inside", Keep::inside}}};
 inline constexpr Words<ContactSurface, 2> contact_surface_words{
