@@ -1,6 +1,7 @@
 #include "contact/sliding_contact.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "contact/passing.hpp"
@@ -44,8 +45,10 @@ const sliding::ValidityBound& bound_of(const SlidingState& at, Index guard) {
 
 bool is_bound(const SlidingState& at, Index guard) { return guard >= static_cast<Index>(at.contacts()); }
 
-bool is_watched_edge(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {
-  return contact < at.layout.points().size() && sliding::must_press(setting, at, contact);
+// Whether a bound watches the force of a closed contact: at an edge, or inside a zone across a plane of symmetry.
+bool is_watched(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {
+  return contact < at.layout.points().size() ? sliding::must_press(setting, at, contact)
+                                             : sliding::is_inside_zone(setting, at.layout, contact);
 }
 
 double guard_of_contact(const SlidingSetting& setting, const SlidingState& at, Index j) {
@@ -54,7 +57,7 @@ double guard_of_contact(const SlidingSetting& setting, const SlidingState& at, I
   const auto contact = static_cast<std::size_t>(j);
   if (at.layout.is_pinched(contact)) return out_of_reach;
   if (at.is_closed(contact))
-    return is_watched_edge(setting, at, contact) ? out_of_reach : at.force(contact) / setting.scales.force;
+    return is_watched(setting, at, contact) ? out_of_reach : at.force(contact) / setting.scales.force;
   if (sliding::lies_flat(setting, at.layout, contact)) return out_of_reach;
   const double gap = sliding::face_gap(setting, sliding::touch_of_contact(setting, at.layout, contact), at);
   return std::isfinite(gap) ? gap / setting.scales.length : out_of_reach;
@@ -74,7 +77,7 @@ Row guard_gradient_of_contact(const SlidingSetting& setting, const SlidingState&
   Row row = at.no_slope();
   if (at.layout.is_pinched(static_cast<std::size_t>(j))) return row;
   if (const auto p = at.index.force(static_cast<std::size_t>(j))) {
-    if (is_watched_edge(setting, at, static_cast<std::size_t>(j))) return row;
+    if (is_watched(setting, at, static_cast<std::size_t>(j))) return row;
     row.dx[*p] = 1.0 / setting.scales.force;
     return row;
   }
@@ -254,8 +257,10 @@ bool SlidingContact::passes_through(const State& from, const State& to) const {
 }
 
 // Each closed point, but those at the end of a zone that an earlier one begins; each zone from end to end of a strand;
-// and each closed end, which is one with the zones that reach it.
+// and each closed end, which is one with the zones that reach it. Beyond a plane of symmetry there are as many, but for
+// what crosses it.
 Index SlidingContact::separate_contacts(const ActiveSet& active_set) const {
+  constexpr std::array<bool, 2> both_ends{false, true};
   const SlidingContactLayout& layout = sliding_layout(active_set);
   const std::size_t points = layout.points().size();
   const auto strand_of = [&](std::size_t k) { return layout.mesh().breakpoint(static_cast<Index>(k)).first; };
@@ -265,18 +270,33 @@ Index SlidingContact::separate_contacts(const ActiveSet& active_set) const {
     return point && layout.points()[*point].obstacle == obstacle &&
            layout.span_at_end(end.strand, end.last) != SlidingContactLayout::Span::free;
   };
+  const auto is_mirrored = [&](const StrandEnd& end) {
+    return body().is_on_plane(end.strand, end.last) &&
+           std::any_of(setting_->free_ends.begin(), setting_->free_ends.end(),
+                       [&](const FreeEnd& contact) { return contact.joined.empty() && contact.is_of(end); });
+  };
+  const auto copies = [&](Index strand) { return is_mirrored({strand, false}) || is_mirrored({strand, true}) ? 2 : 1; };
+  const auto crosses_plane = [&](std::size_t k) {
+    return std::any_of(both_ends.begin(), both_ends.end(), [&](bool last) {
+      const StrandEnd end{.strand = strand_of(k), .last = last};
+      return is_mirrored(end) && layout.point_at_end(end.strand, last) == k &&
+             layout.span_at_end(end.strand, last) != SlidingContactLayout::Span::free;
+    });
+  };
   Index count = 0;
   for (std::size_t k = 0; k < points; ++k) {
     const bool ends_zone =
         k > 0 && strand_of(k) == strand_of(k - 1) && layout.points()[k - 1].behind != SlidingContactLayout::Span::free;
-    if (active_set[k] != 0 && !ends_zone) ++count;
+    if (active_set[k] != 0 && !ends_zone) count += crosses_plane(k) ? 1 : copies(strand_of(k));
   }
   for (Index strand = 0; strand < body().strands(); ++strand)
     if (layout.lies_on(strand)) ++count;
   for (std::size_t e = 0; e < setting_->free_ends.size(); ++e) {
     if (active_set[points + e] == 0) continue;
     const FreeEnd& end = setting_->free_ends[e];
-    if (!is_in_zone({.strand = end.strand, .last = end.last}, end.obstacle)) ++count;
+    const bool is_at_plane = body().is_on_plane(end.strand, end.last);
+    if (!is_in_zone({.strand = end.strand, .last = end.last}, end.obstacle))
+      count += is_at_plane ? 1 : copies(end.strand);
     count -= std::count_if(end.joined.begin(), end.joined.end(),
                            [&](const StrandEnd& other) { return is_in_zone(other, end.obstacle); });
   }

@@ -251,10 +251,10 @@ class SlidingBody {
   /// other ends.
   virtual std::optional<StrandEnd> joined_end(Index strand, bool last) const = 0;
 
-  /// Whether contact may come up to an end of a strand: a tip, a hinged end or such a joint. There it is a contact of
-  /// the end itself; of a hinged one only on a roller, with walls that cross its way.
+  /// Whether contact may come up to an end of a strand: a tip, a hinged end, one on a plane of symmetry or such a
+  /// joint. There it is a contact of the end itself; of a hinged one only on a roller, with walls that cross its way.
   bool lets_contact_come(Index strand, bool last) const {
-    return is_tip(strand, last) || is_hinged(strand, last) || joined_end(strand, last);
+    return is_tip(strand, last) || is_hinged(strand, last) || is_on_plane(strand, last) || joined_end(strand, last);
   }
 
   /// Whether supports hold an end of a strand in z and its rotation.
@@ -262,6 +262,10 @@ class SlidingBody {
 
   /// Whether supports hold an end of a strand in z and leave its rotation to it, with no other strand at it.
   virtual bool is_hinged(Index strand, bool last) const = 0;
+
+  /// Whether supports hold an end of a strand as a plane of symmetry across the axis does: in rotation and along the
+  /// axis, not along the plane.
+  virtual bool is_on_plane(Index strand, bool last) const = 0;
 
   /// Whether an end of a strand is hinged and may move in x.
   virtual bool is_on_roller(Index strand, bool last) const = 0;

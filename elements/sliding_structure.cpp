@@ -91,6 +91,14 @@ bool SlidingStructure::is_hinged(Index strand, bool last) const {
   return ends_at(end.dof[1]).size() == 1 && nodal_.is_held(end.dof[1]) && !nodal_.is_held(end.dof[2]);
 }
 
+bool SlidingStructure::is_on_plane(Index strand, bool last) const {
+  const End& end = at(strand).ends[last ? 1 : 0];
+  const bool holds_x = nodal_.is_held(end.dof[0]), holds_z = nodal_.is_held(end.dof[1]);
+  if (holds_x == holds_z || !nodal_.is_held(end.dof[2])) return false;
+  const Vec2 along = unit_tangent(undeformed({.strand = strand, .s = last ? length(strand) : 0.0}, true).angle);
+  return (std::abs(along.x()) > std::abs(along.y())) == holds_x;
+}
+
 Vec2 SlidingStructure::load(const MaterialPoint& point, const AxisPlace& place, double stretch, double lambda) const {
   const Run& strand = at(point.strand);
   Vec2 load = lambda * strand.load + strand.constant_load;

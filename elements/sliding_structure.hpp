@@ -56,6 +56,7 @@ class SlidingStructure final : public SlidingBody {
     return nodal_.is_held(end.dof[1]) && nodal_.is_held(end.dof[2]);
   }
   bool is_hinged(Index strand, bool last) const override;
+  bool is_on_plane(Index strand, bool last) const override;
   bool is_on_roller(Index strand, bool last) const override {
     return is_hinged(strand, last) && !nodal_.is_held(at(strand).ends[last ? 1 : 0].dof[0]);
   }

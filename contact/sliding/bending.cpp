@@ -98,7 +98,10 @@ CurvatureGap end_curvature_gap_gradient(const SlidingSetting& setting, const Sli
 }
 
 double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  const Touch touch = touch_of_contact(setting, at.layout, point);
+  return obstacle_curvature(setting, at, touch_of_contact(setting, at.layout, point));
+}
+
+double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at, const Touch& touch) {
   return setting.obstacles[touch.obstacle].surface->curvature(touch.axis(at).position, at.now.lambda).value;
 }
 
@@ -111,7 +114,10 @@ Vec2 place_ahead(const AxisPlace& axis, double stretch, double ahead) {
 }  // namespace
 
 bool obstacle_is_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
-  const Touch touch = touch_of_contact(setting, at.layout, point);
+  return obstacle_is_straight(setting, at, touch_of_contact(setting, at.layout, point), ahead);
+}
+
+bool obstacle_is_straight(const SlidingSetting& setting, const SlidingState& at, const Touch& touch, double ahead) {
   const AxisPlace axis = touch.axis(at);
   const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
   const auto is_straight = [&](double part) {
@@ -123,14 +129,15 @@ bool obstacle_is_straight(const SlidingSetting& setting, const SlidingState& at,
 
 namespace {
 
-// What the body has on the free side of a point, or at the first end of a strand.
-AxisStrain strain_at(const SlidingState& at, Index strand, std::optional<Index> point) {
-  return point ? strain_of_free_side(at, static_cast<std::size_t>(*point)) : at.mesh.end_strain(strand, false, at.now);
+// What the body has on the free side of a point, or at an end of a strand.
+AxisStrain strain_at(const SlidingState& at, const Touch& touch, std::optional<Index> point) {
+  return point ? strain_of_free_side(at, static_cast<std::size_t>(*point))
+               : at.mesh.end_strain(touch.strand, touch.position > 0, at.now);
 }
 
-AxisStrainGradient strain_gradient_at(const SlidingState& at, Index strand, std::optional<Index> point) {
+AxisStrainGradient strain_gradient_at(const SlidingState& at, const Touch& touch, std::optional<Index> point) {
   return point ? strain_gradient_of_free_side(at, static_cast<std::size_t>(*point))
-               : at.mesh.end_strain_gradient(strand, false, at.now);
+               : at.mesh.end_strain_gradient(touch.strand, touch.position > 0, at.now);
 }
 
 HeldAxis held_axis_of(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
@@ -139,11 +146,11 @@ HeldAxis held_axis_of(const SlidingSetting& setting, const SlidingState& at, con
   return {
       .touch = touch,
       .point = point,
-      .s = point ? at.s(*point) : 0.0,
+      .s = at.mesh.coordinate(touch.strand, touch.position, at.now.s),
       .position = axis.position,
       .angle = axis.angle,
       .travel = travel(*setting.obstacles[touch.obstacle].surface, face(touch.offset, axis), axis.angle, at.now.lambda),
-      .stretch = strain_at(at, touch.strand, point).stretch,
+      .stretch = strain_at(at, touch, point).stretch,
       .lambda = at.now.lambda};
 }
 
@@ -153,14 +160,13 @@ HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::s
   return held_axis_of(setting, at, touch_of_contact(setting, at.layout, point), static_cast<Index>(point));
 }
 
-HeldAxis held_axis_at_end(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle) {
-  const FreeEnd first{.strand = strand, .obstacle = obstacle};
-  return held_axis_of(setting, at, touch_of_end(setting, at.layout, first), std::nullopt);
+HeldAxis held_axis_at_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  return held_axis_of(setting, at, touch_of_end(setting, at.layout, end), std::nullopt);
 }
 
 HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, const SlidingContactLayout::Segment& part) {
   if (part.has_point()) return held_axis(setting, at, part.end_point());
-  return held_axis_at_end(setting, at, part.strand, at.layout.lies_on(part.strand).value());
+  return held_axis_at_end(setting, at, {.strand = part.strand, .obstacle = at.layout.lies_on(part.strand).value()});
 }
 
 namespace {
@@ -226,7 +232,7 @@ Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState
   const double by_lambda = by(1.0, [](HeldAxis& there, double d) { there.lambda += d; });
 
   const Touch& touch = held.touch;
-  const AxisStrainGradient strain = strain_gradient_at(at, touch.strand, held.point);
+  const AxisStrainGradient strain = strain_gradient_at(at, touch, held.point);
   Row row = at.no_slope();
   row.dx.head(at.index.nodes) += by_stretch * strain.stretch_dx;
   row.dx.tail(at.index.points) += by_stretch * strain.stretch_ds;
@@ -240,8 +246,7 @@ namespace {
 
 // As if it were parallel to its obstacle already. A guess of what is to lie is not; a load along the obstacle would
 // press it.
-HeldAxis laid_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  HeldAxis held = held_axis(setting, at, point);
+HeldAxis laid_axis(const SlidingSetting& setting, const SlidingState& at, HeldAxis held) {
   held.angle -= touch_gap(setting, held.touch, at).tilt.value;
   return held;
 }
@@ -249,16 +254,20 @@ HeldAxis laid_axis(const SlidingSetting& setting, const SlidingState& at, std::s
 }  // namespace
 
 double holding_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first;
+  return holding_pressure(setting, at, held_axis(setting, at, point));
+}
+
+double holding_pressure(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held) {
+  const Index strand = held.touch.strand;
   const double L = setting.body.length(strand), noise = 1e-7 * setting.body.bending_stiffness(strand) / (L * L * L);
-  const double q = pressure_to_hold(setting, laid_axis(setting, at, point), 0.0);
+  const double q = pressure_to_hold(setting, laid_axis(setting, at, held), 0.0);
   return std::abs(q) > noise ? q : 0.0;
 }
 
 // What acts along the body is linear in λ, and the same but for round-off of its direction where λ does not drive it.
-double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held) {
   constexpr double round_off = 1e-12;
-  HeldAxis less = laid_axis(setting, at, point), more = less;
+  HeldAxis less = laid_axis(setting, at, held), more = less;
   less.lambda -= 1.0;
   more.lambda += 1.0;
   const double rate = 0.5 * (straight_pressure(setting, more, 0.0) - straight_pressure(setting, less, 0.0));
@@ -266,9 +275,17 @@ double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& 
   return std::abs(rate) > round_off * of_load ? rate : 0.0;
 }
 
+double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  return holding_pressure_rate(setting, at, held_axis(setting, at, point));
+}
+
+bool lies_by_itself(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held) {
+  return holding_pressure(setting, at, held) == 0.0 && holding_pressure_rate(setting, at, held) == 0.0 &&
+         obstacle_curvature(setting, at, held.touch) == 0.0;
+}
+
 bool lies_by_itself(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  return holding_pressure(setting, at, point) == 0.0 && holding_pressure_rate(setting, at, point) == 0.0 &&
-         obstacle_curvature(setting, at, point) == 0.0;
+  return lies_by_itself(setting, at, held_axis(setting, at, point));
 }
 
 Vector border_rates(const SlidingSetting& setting, const SlidingState& at) {

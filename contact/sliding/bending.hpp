@@ -34,17 +34,19 @@ CurvatureGap gap_of_curvatures_gradient(const SlidingSetting& setting, const Sli
                                         const AxisStrainGradient& strain);
 CurvatureGap end_curvature_gap_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
-/// Curvature of the obstacle at a tracked point [1/length].
+/// Curvature of the obstacle at a touch, or at a tracked point [1/length].
+double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at, const Touch& touch);
 double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
-/// Whether the obstacle is straight beside a tracked point and up to `ahead` of it along the body.
+/// Whether the obstacle is straight beside a touch, or a tracked point, and up to `ahead` of it along the body.
+bool obstacle_is_straight(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
+                          double ahead = 0.0);
 bool obstacle_is_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead = 0.0);
 
-/// The axis at a tracked point or at the first end of a strand, from where it is held straight along a straight
-/// obstacle.
+/// The axis at a tracked point or at an end of a strand, from where it is held straight along a straight obstacle.
 struct HeldAxis {
   Touch touch;
-  std::optional<Index> point;  ///< empty: it is the first end
+  std::optional<Index> point;  ///< empty: it is an end
   double s;                    ///< material coordinate of the place [length]
   Vec2 position;               ///< of the place
   double angle;                ///< of the axis [rad]
@@ -54,8 +56,8 @@ struct HeldAxis {
 };
 HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
-/// The same at the first end of a strand that lies on a straight obstacle.
-HeldAxis held_axis_at_end(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle);
+/// The same at an end of a strand.
+HeldAxis held_axis_at_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
 /// The same of a part that is pressed on a straight obstacle: at a point at one of its ends, if it has one.
 HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, const SlidingContactLayout::Segment& part);
@@ -75,14 +77,17 @@ Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState
 /// would press (8.7). Exact beside a straight obstacle.
 double pressure_to_hold(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 
-/// The same at a tracked point where the body is parallel to the obstacle or is to become so, 0 where it is round-off.
+/// The same where the body is parallel to the obstacle or is to become so, 0 where it is round-off.
+double holding_pressure(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held);
 double holding_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
 /// The derivative by λ of the pressure with which a straight obstacle holds the body straight at a tracked point: that
 /// of what acts along the body.
+double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held);
 double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
-/// Whether the body needs no pressure to lie on a straight obstacle behind a tracked point, at this λ and at others.
+/// Whether the body needs no pressure to lie on a straight obstacle beside a place, at this λ and at others.
+bool lies_by_itself(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held);
 bool lies_by_itself(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
 /// Of −t at each tracked point by its s: the axis goes on by the stretch along its tangent and turns by its curvature.

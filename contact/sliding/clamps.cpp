@@ -21,8 +21,13 @@ using Change = Transition::Change;
 // The bounds of clamps that are reached together.
 using Clamps = std::vector<const ClampBound*>;
 
-// Whether an end of a strand is on an obstacle: if it is clamped, parallel to it; if it may turn, a straight one.
+// Whether an end of a strand is on an obstacle: if it is clamped, parallel to it; if it may turn, a straight one. On a
+// plane of symmetry it is a contact that is closed.
 bool is_on(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  if (setting.body.is_on_plane(end.strand, end.last)) {
+    const auto contact = setting.number_of_end({.strand = end.strand, .last = end.last}, end.obstacle);
+    return contact && at.is_closed(at.layout.points().size() + *contact) && is_tangent_at_plane(setting, at, end);
+  }
   constexpr double touching = 1e-9;  // gap, scaled, and angle
   const Touch touch = touch_of_end(setting, at.layout, end);
   if (!(std::abs(face_gap(setting, touch, at)) <= touching * setting.scales.length)) return false;
@@ -104,8 +109,17 @@ std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, co
   for (const TailBound* bound : reached<TailBound>(setting, at, arrival))
     if (bound->gathers_at_support(setting, at)) parts.push_back(bound);
   LayoutEdit edit = edit_of(setting.body, at);
+  const auto end_on_plane = [&](const TailBound& part) -> std::optional<std::size_t> {
+    if (!setting.body.is_on_plane(part.strand(), part.last())) return std::nullopt;
+    return setting.number_of_end({.strand = part.strand(), .last = part.last()},
+                                 at.layout.points()[part.point()].obstacle);
+  };
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
     const std::size_t point = (*part)->point();
+    if (const auto end = end_on_plane(**part)) {
+      edit.ends_closed[*end] = 1;
+      edit.end_forces[*end] += edit.forces[point];
+    }
     edit.erase(point, (*part)->last() ? edit.elements_before(point) : edit.elements_behind(point));
   }
   const auto on = layout_of(edit);
@@ -114,7 +128,9 @@ std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, co
     const std::size_t i = bound_number<ClampBound>(
         *on, [&](const ClampBound& clamp) { return clamp.strand() == part->strand() && clamp.last() == part->last(); });
     if (!transition.quantity) transition.quantity = std::make_shared<BoundValue>(setting, i);
-    transition.contacts.push_back(static_cast<Index>(transition.guess.get().active_set.size() + i));
+    const auto end = end_on_plane(*part);
+    transition.contacts.push_back(
+        static_cast<Index>(end ? on->points().size() + *end : transition.guess.get().active_set.size() + i));
   }
   return {
       transition,

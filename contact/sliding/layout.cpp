@@ -109,6 +109,12 @@ std::optional<std::size_t> SlidingContactLayout::point_at_end(Index strand, bool
   return found;
 }
 
+std::optional<std::size_t> SlidingContactLayout::pressed_up_to(const StrandEnd& end) const {
+  if (span_at_end(end.strand, end.last) != Span::pressed) return std::nullopt;
+  const auto point = point_at_end(end.strand, end.last);
+  return point ? points_[*point].obstacle : lies_on(end.strand);
+}
+
 bool SlidingContactLayout::parts_pressed(std::size_t point) const {
   if (points_[point].behind != Span::free || point + 1 == points_.size()) return false;
   return span_before(point) == Span::pressed || points_[point + 1].behind == Span::pressed;

@@ -134,6 +134,9 @@ class SlidingContactLayout final : public SlidingLayout {
   /// How the body runs between the end of a strand and the point nearest to it; free where the strand has none.
   Span span_at_end(Index strand, bool last) const { return segment_at_end(strand, last).span; }
 
+  /// The obstacle on which the body is pressed up to an end of a strand.
+  std::optional<std::size_t> pressed_up_to(const StrandEnd& end) const;
+
   /// The segment between an end of a strand and what is nearest to it.
   const Segment& segment_at_end(Index strand, bool last) const;
 

@@ -236,6 +236,15 @@ void LayoutEdit::erase(std::size_t point, int of_both) {
   set_undivided(run_around(strand, before), std::max(1, all));
 }
 
+void LayoutEdit::press_up_to_end(std::size_t point, bool last, int elements_of_part) {
+  const Index strand = strands[point];
+  const std::size_t obstacle = points[point].obstacle, inner = last ? point - 1 : point + 1;
+  const bool is_alone = inner >= points.size() || strands[inner] != strand;  // also of the first point
+  if (!is_alone && !last) points[inner].before = Span::pressed;
+  erase(point, elements_of_part);
+  if (is_alone) set_lying(strand, obstacle);
+}
+
 void LayoutEdit::touch(std::size_t point) {
   points[point].undivided = 0;
   const std::size_t before = segment_before(point);

@@ -55,6 +55,10 @@ struct LayoutEdit {
   /// The segments before and behind a point become one with so many elements.
   void erase(std::size_t point, int of_both);
 
+  /// Takes a point out that has come to an end of its strand, so that its part is pressed on its obstacle up to there,
+  /// with so many elements.
+  void press_up_to_end(std::size_t point, bool last, int elements_of_part);
+
   /// A point that has waited is touched: the segments beside it are parts of their own from now on.
   void touch(std::size_t point);
 

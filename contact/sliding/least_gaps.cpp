@@ -92,6 +92,13 @@ struct Watched {
   bool anywhere() const { return at_first || at_last || along; }
 };
 
+// Whether the contact of an end on a plane of symmetry is at a least gap of the whole body, which it follows then.
+bool watches_least_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  const auto contact = setting.number_of_end({.strand = end.strand, .last = end.last}, end.obstacle);
+  if (!contact || !is_tangent_at_plane(setting, at, end)) return false;
+  return at.is_closed(at.layout.points().size() + *contact) || end_curvature_gap(setting, at, end) > 0.0;
+}
+
 // Of the elements of a strand, by their first node.
 std::vector<Watched> watched_elements(const SlidingSetting& setting, const SlidingState& at, Index strand,
                                       std::size_t obstacle) {
@@ -111,6 +118,9 @@ std::vector<Watched> watched_elements(const SlidingSetting& setting, const Slidi
     const Index last = to_end ? at.mesh.nodes(strand) - 1 : at.mesh.breakpoint(static_cast<Index>(k) + 1).second;
     for (Index e = position; e < last; ++e) watched[static_cast<std::size_t>(e)].along = true;
   }
+  for (const bool last : {false, true})
+    if (watches_least_gap(setting, at, {.strand = strand, .last = last, .obstacle = obstacle}))
+      (last ? watched.end()[-2].at_last : watched.front().at_first) = true;
   return watched;
 }
 

@@ -10,11 +10,13 @@
 #include "contact/sliding/bounds/load.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/bounds/pulling_jump.hpp"
+#include "contact/sliding/bounds/tip_presses.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/pulling_jumps.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
+#include "contact/sliding/tips.hpp"
 
 namespace arcwall::sliding {
 
@@ -74,6 +76,13 @@ Where lifts_off_at(const SlidingSetting& setting, const SlidingState& at, const 
   return lift.place - begin < near ? Where::first_end : end - lift.place < near ? Where::last_end : Where::inside;
 }
 
+// Whether a part reaches an end of its strand, and there a plane of symmetry: beyond it is the other half of the zone.
+bool reaches_plane(const SlidingBody& body, const SlidingContactLayout::Segment& part, Where where) {
+  const bool last = where == Where::last_end;
+  return where != Where::inside && (last ? part.last_point : part.first_point) < 0 &&
+         body.is_on_plane(part.strand, last);
+}
+
 // From where a part is free that begins here and has been split before, or its end.
 double next_edge(const LayoutEdit& edit, Index strand, double begin, double end) {
   double next = end;
@@ -83,16 +92,48 @@ double next_edge(const LayoutEdit& edit, Index strand, double begin, double end)
   return next;
 }
 
+// Whether a part has a tracked point or a plane of symmetry at each of its ends.
+bool reaches_points_or_planes(const SlidingBody& body, const SlidingContactLayout::Segment& part) {
+  return (part.first_point >= 0 || body.is_on_plane(part.strand, false)) &&
+         (part.last_point >= 0 || body.is_on_plane(part.strand, true));
+}
+
+// Lifts the part that reaches a plane of symmetry off there: half a free span up to a new edge, whose point it tells.
+std::optional<std::size_t> split_at_plane(const SlidingSetting& setting, const SlidingState& at, const LiftOff& lift,
+                                          double length, bool last, LayoutEdit& edit) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[lift.segment];
+  const auto [begin, end] = at.layout.ends(setting.body, part, at.now.s);
+  if (length > 0.5 * (end - begin)) return std::nullopt;
+  const double s = last ? end - length : begin + length;
+  const auto contact = setting.number_of_end({.strand = part.strand, .last = last}, lift.obstacle).value();
+  edit.ends_closed[contact] = 0;
+  edit.set_lying(part.strand, std::nullopt);
+  const auto elements = [&](double from, double to, int fewest) {
+    return std::max(fewest, static_cast<int>(std::ceil(setting.body.elements_between(part.strand, from, to))));
+  };
+  const int free = elements(0.0, length, 1),
+            rest = elements(0.0, end - begin - length, fewest_pressed(lift.on_straight));
+  return edit.insert({.point = {.obstacle = lift.obstacle,
+                                .behind = last ? Span::free : Span::pressed,
+                                .before = last ? Span::pressed : Span::free},
+                      .strand = part.strand,
+                      .s = s,
+                      .closed = true},
+                     last ? rest : free, last ? free : rest);
+}
+
 // Splits a part by a free span where it lifts off; tells the point behind which the span begins. Empty where the part
 // is too short for that. Parts are split from the last to the first.
 std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingState& at, const LiftOff& lift,
                                  double length, LayoutEdit& edit) {
   const SlidingContactLayout::Segment& part = at.layout.segments()[lift.segment];
   const Index strand = part.strand;
-  const bool lies = !part.has_point();                                              // from end to end
-  if (!lies && (part.first_point < 0 || part.last_point < 0)) return std::nullopt;  // it reaches the end of its member
+  const bool lies = !part.has_point();  // from end to end
   const auto [begin, end] = at.layout.ends(setting.body, part, at.now.s);
   const Where where = lifts_off_at(setting, at, lift, length);
+  if (reaches_plane(setting.body, part, where))
+    return split_at_plane(setting, at, lift, length, where == Where::last_end, edit);
+  if (!lies && !reaches_points_or_planes(setting.body, part)) return std::nullopt;  // it reaches the end of its member
   const bool at_first = where == Where::first_end, at_last = where == Where::last_end;
   const double left = at_first ? begin : at_last ? end - length : lift.place - 0.5 * length;
   const double next = next_edge(edit, strand, begin, end);
@@ -107,8 +148,8 @@ std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingSta
   const int fewest = fewest_pressed(lift.on_straight);
   const int across = elements(left, left + length, 2), behind = elements(left + length, next, fewest);
   LayoutEdit::Entry edge{.point = {.obstacle = lift.obstacle}, .strand = strand, .s = left, .closed = true};
+  if (part.first_point < 0) edge.point.before = Span::pressed;
   if (lies) {
-    edge.point.before = Span::pressed;
     edit.set_lying(strand, std::nullopt);
   }
   const std::size_t first = at_first ? static_cast<std::size_t>(part.first_point)
@@ -147,8 +188,13 @@ std::optional<Transition> lifted(const SlidingSetting& setting, const SlidingSta
     if (!begins_behind) return std::nullopt;
     first = *begins_behind;
   }
-  return up_to(length, std::make_shared<SpanLength>(first), Transition::Change::splits,
-               mapped_when_tried(setting, at, edit));
+  const LiftOff& of_first = lifts.front();
+  const SlidingContactLayout::Segment& part = at.layout.segments()[of_first.segment];
+  const Where where = lifts_off_at(setting, at, of_first, length);
+  std::shared_ptr<const Observable> of_one = std::make_shared<SpanLength>(first);
+  if (reaches_plane(setting.body, part, where))
+    of_one = std::make_shared<TailLength>(first, where == Where::last_end ? setting.body.length(part.strand) : 0.0);
+  return up_to(length, std::move(of_one), Transition::Change::splits, mapped_when_tried(setting, at, edit));
 }
 
 // The lengths in which a free span inside a part is tried, from the shortest.
@@ -274,7 +320,9 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
   const SlidingContactLayout::Segment& part = at.layout.segments()[lifts.front().segment];
   const double shortest = shortest_span_on_straight(setting.body, part.strand);
   const bool at_ends_on_straight = std::all_of(lifts.begin(), lifts.end(), [&](const LiftOff& lift) {
-    return lift.on_straight && lifts_off_at(setting, at, lift, shortest) != Where::inside;
+    const Where where = lifts_off_at(setting, at, lift, shortest);
+    const bool at_plane = reaches_plane(setting.body, at.layout.segments()[lift.segment], where);
+    return lift.on_straight && where != Where::inside && !at_plane;
   });
   const auto try_length = [&](double length, double least) {
     auto transition = lifted(setting, at, lifts, length);
@@ -353,6 +401,28 @@ std::vector<Transition> load_lifts_off(const SlidingSetting& setting, const Slid
     return std::find(pulling.begin(), pulling.end(), &bound) != pulling.end();
   });
   return lifted_inside(setting, at, lifts, bounds);
+}
+
+std::vector<Transition> load_at_plane_lifts_off(const SlidingSetting& setting, const SlidingState& at,
+                                                const StrandEnd& end, const Arrival& arrival) {
+  const auto contact = pressed_contact(setting, at, end);
+  LiftOffs lifts;
+  std::vector<const TipPressesBound*> pulled;
+  for (const TipPressesBound* bound : reached<TipPressesBound>(setting, at, arrival)) {
+    if (pressed_contact(setting, at, bound->end()) != contact) continue;
+    pulled.push_back(bound);
+    const std::size_t obstacle = setting.free_ends[*contact].obstacle;
+    const auto& segments = at.layout.segments();
+    const auto segment =
+        static_cast<std::size_t>(&at.layout.segment_at_end(bound->strand(), bound->last()) - segments.data());
+    lifts.push_back({.segment = segment,
+                     .obstacle = obstacle,
+                     .place = bound->last() ? setting.body.length(bound->strand()) : 0.0,
+                     .on_straight = setting.obstacles[obstacle].surface->knots().empty()});
+  }
+  return lifted_inside(setting, at, lifts, bounds_of<TipPressesBound>(at, [&](const TipPressesBound& bound) {
+                         return std::find(pulled.begin(), pulled.end(), &bound) != pulled.end();
+                       }));
 }
 
 }  // namespace arcwall::sliding

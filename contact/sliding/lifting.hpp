@@ -30,4 +30,9 @@ std::vector<Transition> load_lifts_off(const SlidingSetting& setting, const Slid
 /// state, without contact. Empty where there is none.
 std::optional<Transition> strands_leave(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival);
 
+/// What lies behind a state where the load at an end on a plane of symmetry, up to which a part is pressed, begins to
+/// pull.
+std::vector<Transition> load_at_plane_lifts_off(const SlidingSetting& setting, const SlidingState& at,
+                                                const StrandEnd& end, const Arrival& arrival);
+
 }  // namespace arcwall::sliding

@@ -31,8 +31,10 @@ bool is_driven_into(const SlidingSetting& setting, const SlidingState& at, Index
                     double toward) {
   return std::any_of(both_ends.begin(), both_ends.end(), [&](bool last) {
     const TouchGap touch = touch_at_end(setting, at, strand, last, obstacle);
+    const bool on_plane = setting.body.is_on_plane(strand, last);
     if (setting.body.is_tip(strand, last)) return false;
-    return touch.gap.rate * toward < 0.0 || (setting.body.is_clamped(strand, last) && touch.tilt.rate != 0.0);
+    return (!on_plane && touch.gap.rate * toward < 0.0) ||
+           ((on_plane || setting.body.is_clamped(strand, last)) && touch.tilt.rate != 0.0);
   });
 }
 
@@ -40,7 +42,9 @@ bool is_driven_into(const SlidingSetting& setting, const SlidingState& at, Index
 bool may_lie(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle, double toward) {
   const SlidingBody& body = setting.body;
   for (const bool last : both_ends)
-    if (!body.is_tip(strand, last) && !body.is_hinged(strand, last) && !body.is_clamped(strand, last)) return false;
+    if (!body.is_tip(strand, last) && !body.is_hinged(strand, last) && !body.is_clamped(strand, last) &&
+        !body.is_on_plane(strand, last))
+      return false;
   return setting.obstacles[obstacle].concerns(strand) && !is_driven_into(setting, at, strand, obstacle, toward);
 }
 
@@ -70,7 +74,7 @@ bool lies_along(const SlidingSetting& setting, const SlidingState& at, Index str
 bool is_pressed_at(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
                    double lambda) {
   constexpr int places = 64;
-  HeldAxis held = held_axis_at_end(setting, at, strand, obstacle);
+  HeldAxis held = held_axis_at_end(setting, at, {.strand = strand, .obstacle = obstacle});
   held.lambda = lambda;
   for (int i = 0; i <= places; ++i)
     if (!(straight_pressure(setting, held, setting.body.length(strand) * i / places) > 0.0)) return false;

@@ -38,9 +38,8 @@ NodeFunction half_difference(const NodeFunction& f, const NodeFunction& g) {
           .gradient_rate = 0.5 * (f.gradient_rate - g.gradient_rate)};
 }
 
-// Whether the axis at a node is parallel to the obstacle of a point. One is straight wherever this is asked.
-bool is_parallel(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double angle) {
-  const Touch touch = touch_of_contact(setting, at.layout, point);
+// Whether the axis at a node is parallel to the obstacle of a touch. One is straight wherever this is asked.
+bool is_parallel(const SlidingState& at, const Touch& touch, double angle) {
   return std::abs(angle - touch.axis(at).angle) <= parallel;
 }
 
@@ -58,17 +57,17 @@ double greatest_curvature(const SlidingState& at, Index strand) {
   return greatest;
 }
 
-// Whether an end of a point's strand is clamped, parallel to the obstacle there, and the body has no curvature at it.
-bool is_straightened_end(const SlidingSetting& setting, const SlidingState& at, std::size_t point, bool last) {
+// Whether an end of a touch's strand is clamped, parallel to the obstacle there, and the body has no curvature at it.
+bool is_straightened_end(const SlidingSetting& setting, const SlidingState& at, const Touch& touch, bool last) {
   constexpr double straight = 0.1;  // of the greatest curvature in the strand
-  const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first, nodes = at.mesh.nodes(strand);
+  const Index strand = touch.strand, nodes = at.mesh.nodes(strand);
   const Index node = last ? nodes - 1 : 0, e = last ? nodes - 2 : 0;
   const NodeUnknowns unknowns = at.mesh.node_unknowns(strand, node);
   if (unknowns[1] >= 0 || unknowns[2] >= 0) return false;
-  const NodeFunction gap = axis_gap(setting, at, strand, node, at.layout.points()[point].obstacle);
+  const NodeFunction gap = axis_gap(setting, at, strand, node, touch.obstacle);
   if (unknowns[0] >= 0 && (gap.gradient[0] != 0.0 || gap.gradient_rate[0] != 0.0)) return false;
   const auto angle = [&](double t) { return at.mesh.inside(strand, e, last ? 1.0 - t : t, at.now).angle; };
-  if (!is_parallel(setting, at, point, angle(0.0))) return false;
+  if (!is_parallel(at, touch, angle(0.0))) return false;
   const double curvature = (4.0 * angle(0.5) - 3.0 * angle(0.0) - angle(1.0)) / element_length(at, strand, e);
   return std::abs(curvature) <= straight * greatest_curvature(at, strand);
 }
@@ -160,20 +159,29 @@ NeutralSides spans_made_neutral(const SlidingSetting& setting, const SlidingStat
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (!is_line(k)) continue;
     const Index strand = strand_of(k);
+    const Touch touch = touch_of_contact(setting, at.layout, k);
     const double s = at.s(static_cast<Index>(k));
     const bool is_first = k == 0 || strand_of(k - 1) != strand;
     const bool is_last = k + 1 == points.size() || strand_of(k + 1) != strand;
     if (is_first && at.layout.span_before(k) == Span::free && !is_loaded(setting, strand, 0.0, s - beside))
-      sides.before[k] = is_straightened_end(setting, at, k, false);
+      sides.before[k] = is_straightened_end(setting, at, touch, false);
     const double end = is_last ? setting.body.length(strand) : at.s(static_cast<Index>(k) + 1) - beside;
     if (points[k].behind != Span::free || is_loaded(setting, strand, s + beside, end)) continue;
     if (is_last)
-      sides.behind[k] = is_straightened_end(setting, at, k, true);
+      sides.behind[k] = is_straightened_end(setting, at, touch, true);
     else
       sides.behind[k] = is_line(k + 1) && points[k].obstacle != points[k + 1].obstacle &&
-                        is_parallel(setting, at, k, touch_of_contact(setting, at.layout, k + 1).axis(at).angle);
+                        is_parallel(at, touch, touch_of_contact(setting, at.layout, k + 1).axis(at).angle);
   }
   return sides;
+}
+
+bool is_neutral_from_plane(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end, double beside) {
+  const double L = setting.body.length(end.strand);
+  if (at.layout.point_at_end(end.strand, end.last)) return false;
+  if (is_loaded(setting, end.strand, end.last ? 0.0 : beside, end.last ? L - beside : L)) return false;
+  return lies_by_itself(setting, at, held_axis_at_end(setting, at, end)) &&
+         is_straightened_end(setting, at, touch_of_end(setting, at.layout, end), !end.last);
 }
 
 }  // namespace arcwall::sliding

@@ -41,4 +41,8 @@ struct NeutralSides {
 NeutralSides spans_made_neutral(const SlidingSetting& setting, const SlidingState& at,
                                 const std::vector<std::size_t>& lines, double beside);
 
+/// Whether the span between such a part that begins at a plane of symmetry and the other end of the strand, clamped, is
+/// neutral, where the strand has no tracked point.
+bool is_neutral_from_plane(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end, double beside);
+
 }  // namespace arcwall::sliding

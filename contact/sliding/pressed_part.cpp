@@ -193,7 +193,9 @@ bool lies_on_straight(const SlidingSetting& setting, const SlidingState& at, std
 
 bool part_needs_no_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t segment) {
   const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
-  if (!part.has_point() || !at.layout.hands_loads_on(segment)) return false;
+  const bool at_plane = (part.first_point < 0 && setting.body.is_on_plane(part.strand, false)) ||
+                        (part.last_point < 0 && setting.body.is_on_plane(part.strand, true));
+  if (!part.has_point() || !(at_plane || at.layout.hands_loads_on(segment))) return false;
   const std::size_t point = part.end_point();
   const auto [from, to] = at.layout.ends(setting.body, part, at.now.s);
   const double place = at.s(static_cast<Index>(point));

@@ -8,7 +8,8 @@ namespace arcwall::sliding {
 /// Whether the part to which a pressed node belongs lies on a straight obstacle.
 bool lies_on_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t node);
 
-/// Whether a pressed part hands point loads on, and lies on its straight obstacle by itself but for these.
+/// Whether a pressed part hands point loads on, be it at a plane of symmetry, and lies on its straight obstacle by
+/// itself but for these.
 bool part_needs_no_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t segment);
 
 /// The pressure on a pressed part, seen from one of its nodes: up to the middles of the elements on both sides, and

@@ -38,7 +38,7 @@ std::vector<FreeEnd> free_ends(const SlidingBody& body, const std::vector<Slidin
         const AxisPlace at = mesh.node(strand, end.position(mesh), rest);
         const bool slides = mesh.node_unknowns(strand, end.position(mesh))[0] >= 0;
         const bool may_touch =
-            !body.end_is_held(strand, last) ||
+            !body.end_is_held(strand, last) || body.is_on_plane(strand, last) ||
             (slides && roller_touches(obstacles[w], at, body.half_height(strand), near * body.length(strand)));
         if (!obstacles[w].concerns(strand) || !may_touch) continue;
         const StrandEnd first = body.first_of_joint(strand, last, !obstacles[w].on_face);

@@ -13,7 +13,8 @@
 namespace arcwall {
 
 /// A free end of a strand with an obstacle that may touch it, though no tangent of the body does: a contact of its own,
-/// at the last node. Also an end that a support holds in z alone, with an obstacle that stands across its way in x.
+/// at the last node. Also an end that a support holds in z alone, with an obstacle that stands across its way in x, and
+/// an end on a plane of symmetry, where the middle of the whole body touches.
 struct FreeEnd {
   Index strand = 0;
   bool last = false;
@@ -62,6 +63,15 @@ struct SlidingSetting {
   std::vector<FreeEnd> free_ends{};
   ContinuumChoice continuum = ContinuumChoice::symmetric;
   std::vector<Pinch> pinches{};  ///< along the strands, in their order
+
+  /// The contact of an end of a strand with an obstacle, by its number among the free ends.
+  std::optional<std::size_t> number_of_end(const StrandEnd& end, std::size_t obstacle) const {
+    const auto found = std::find_if(free_ends.begin(), free_ends.end(), [&](const FreeEnd& contact) {
+      return contact.obstacle == obstacle && contact.is_of(end);
+    });
+    if (found == free_ends.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - free_ends.begin());
+  }
 
   /// How far the body's outside is from the axis where an obstacle touches it [length].
   double half_height_touched(std::size_t obstacle, Index strand) const {

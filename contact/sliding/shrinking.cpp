@@ -11,10 +11,12 @@
 #include "contact/sliding/bounds/length.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/bounds/pulling_jump.hpp"
+#include "contact/sliding/bounds/tip_presses.hpp"
 #include "contact/sliding/curvature_jumps.hpp"
 #include "contact/sliding/pulling_jumps.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
+#include "contact/sliding/tips.hpp"
 
 namespace arcwall::sliding {
 
@@ -140,6 +142,25 @@ Transition span_vanishes(const SlidingSetting& setting, const SlidingState& at, 
   if (std::find(spans.begin(), spans.end(), point) == spans.end()) spans = {point};
   std::erase_if(spans, [&](std::size_t k) { return closes_a_gap(k) != closes_a_gap(point); });
   return closes_a_gap(point) ? joined(setting, at, spans) : gathered(setting, at, spans);
+}
+
+Transition zone_joins_at_plane(const SlidingSetting& setting, const SlidingState& at, std::size_t point, bool last) {
+  LayoutEdit edit = edit_of(setting.body, at);
+  const Index strand = edit.strands[point];
+  const StrandEnd of{.strand = strand, .last = last};
+  const std::size_t end = setting.number_of_end({.strand = strand, .last = last}, edit.points[point].obstacle).value();
+  edit.ends_closed[end] = 1;
+  edit.end_forces[end] = edit.forces[point];
+  edit.press_up_to_end(point, last, edit.elements_before(point) + edit.elements_behind(point));
+  if (!(put_on_end(setting, at, setting.free_ends[end].seen_from(of)) < 0.0))
+    return back_to<PressureBound>(setting, at, edit, {last ? setting.body.length(strand) : 0.0},
+                                  Transition::Change::joins);
+  const auto on = layout_of(edit);
+  const std::size_t pulls = bound_number<TipPressesBound>(*on, [&](const auto& bound) { return bound.end() == of; });
+  Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, pulls), Transition::Change::joins,
+                                mapped_onto(setting, at, edit, on));
+  transition.contacts = {static_cast<Index>(on->points().size() + end)};
+  return transition;
 }
 
 namespace {

@@ -20,4 +20,8 @@ Transition span_vanishes(const SlidingSetting& setting, const SlidingState& at, 
 std::vector<Transition> neighbours_vanish(const SlidingSetting& setting, const SlidingState& at,
                                           const Direction& forward, std::size_t point);
 
+/// What lies behind a state where the free span between a plane of symmetry at an end and the pressed part behind a
+/// point becomes short: the part reaches the plane where its pressure there, or the load that pulled it off, vanishes.
+Transition zone_joins_at_plane(const SlidingSetting& setting, const SlidingState& at, std::size_t point, bool last);
+
 }  // namespace arcwall::sliding

@@ -45,15 +45,16 @@ double shortest_span(const SlidingBody& body, Index strand) {
 
 double shortest_tail(const SlidingBody& body, Index strand) { return 1e-3 * body.length(strand); }
 
+namespace {
+
 // Between a pressed part and a touch the touch's force vanishes with the pressure at the edge, and the equations tell
 // the span by the product of that and its cube; but an arch over a point of a spline may be shorter.
 //
 // Between two pressed parts the force that is left at the edges goes with the cube of the span, and is lost in the
 // error of the elements where these are much longer.
-double shortest_span(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+double shortest_of_kind(const SlidingSetting& setting, const SlidingState& at, std::size_t point, Span span,
+                        bool before, bool behind) {
   const SlidingContactLayout& on = at.layout;
-  const bool before = on.span_before(point) == Span::pressed, behind = on.points()[point + 1].behind == Span::pressed;
-  const Span span = on.points()[point].behind;
   const Index strand = on.mesh().breakpoint(static_cast<Index>(point)).first;
   if (span == Span::free && before && behind)
     return obstacle_is_straight(setting, at, point)
@@ -67,6 +68,20 @@ double shortest_span(const SlidingSetting& setting, const SlidingState& at, std:
                     (has_jumps ? 3.0 : 12.0) * shortest_span_on_straight(setting.body, strand));
   }
   return shortest_span(setting.body, strand);
+}
+
+}  // namespace
+
+double shortest_span(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  const SlidingContactLayout& on = at.layout;
+  const bool before = on.span_before(point) == Span::pressed, behind = on.points()[point + 1].behind == Span::pressed;
+  return shortest_of_kind(setting, at, point, on.points()[point].behind, before, behind);
+}
+
+double shortest_span_at_plane(const SlidingSetting& setting, const SlidingState& at, std::size_t point, bool last) {
+  const Span inner = last ? at.layout.span_before(point) : at.layout.points()[point].behind;
+  const Span span = last ? at.layout.points()[point].behind : at.layout.span_before(point);
+  return shortest_of_kind(setting, at, point, span, inner == Span::pressed, inner == Span::pressed);
 }
 
 }  // namespace arcwall::sliding

@@ -57,4 +57,7 @@ double shortest_tail(const SlidingBody& body, Index strand);
 /// The same of the span behind a tracked point.
 double shortest_span(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
+/// The same of the half span between a tracked point and the plane of symmetry at an end of its strand.
+double shortest_span_at_plane(const SlidingSetting& setting, const SlidingState& at, std::size_t point, bool last);
+
 }  // namespace arcwall::sliding

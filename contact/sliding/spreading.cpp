@@ -1,13 +1,14 @@
 #include "contact/sliding/spreading.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "contact/sliding/bending.hpp"
+#include "contact/sliding/bounds/clamp.hpp"
 #include "contact/sliding/bounds/curvature.hpp"
+#include "contact/sliding/clamps.hpp"
 #include "contact/sliding/neutral_spans.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/pulling_jumps.hpp"
@@ -22,6 +23,10 @@ namespace arcwall::sliding {
 namespace {
 
 using Points = std::vector<std::size_t>;
+
+// Ends on planes of symmetry: points in the middle of the whole body, of which the half before or behind the plane is
+// there.
+using Planes = std::vector<FreeEnd>;
 using Span = SlidingContactLayout::Span;
 
 std::string counted(Index count, const std::string& what) {
@@ -71,10 +76,20 @@ bool has_load_between(const SlidingSetting& setting, Index strand, double from, 
   return std::any_of(places.begin(), places.end(), [&](double place) { return from < place && place < to; });
 }
 
+// The axis at points and planes, the latter behind.
+std::vector<HeldAxis> held_axes(const SlidingSetting& setting, const SlidingState& at, const Points& points,
+                                const Planes& planes) {
+  std::vector<HeldAxis> held;
+  for (const std::size_t k : points) held.push_back(held_axis(setting, at, k));
+  for (const FreeEnd& end : planes) held.push_back(held_axis_at_end(setting, at, end));
+  return held;
+}
+
 // In words: what was looked for behind points that lose their curvature, and why it may be hard to find.
-std::string why_none_spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
+std::string why_none_spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points,
+                             const Planes& planes) {
   const auto straight = [&](std::size_t k) { return obstacle_curvature(setting, at, k) == 0.0; };
-  const auto count = static_cast<Index>(points.size());
+  const auto count = static_cast<Index>(points.size() + planes.size());
   std::string text = counted(count, "contact point") + (count > 1 ? " become zones" : " becomes a zone") +
                      ", but no equilibrium with short ones was found";
   if (std::any_of(points.begin(), points.end(), [&](std::size_t k) { return has_load_beside(setting, at, k); }))
@@ -85,12 +100,23 @@ std::string why_none_spreads(const SlidingSetting& setting, const SlidingState& 
   return text;
 }
 
-// Behind each of the points there are spans now, of which the first one behind the first point begins with a length.
+// The number of an end's contact among those of an active set.
+std::size_t contact_of(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  return at.layout.points().size() +
+         setting.number_of_end({.strand = end.strand, .last = end.last}, end.obstacle).value();
+}
+
+// Behind each of the points, and beside each of the planes, there are spans now, of which one begins with a length.
 Transition with_spans(const SlidingSetting& setting, const SlidingState& at, const Points& points,
-                      const LayoutEdit& edit, double length) {
-  Transition transition = up_to(length, std::make_shared<SpanLength>(points.front()), Transition::Change::spreads,
-                                mapped_when_tried(setting, at, edit));
+                      const LayoutEdit& edit, double length, std::shared_ptr<const Observable> of_one,
+                      const Planes& planes = {}) {
+  Transition transition =
+      up_to(length, std::move(of_one), Transition::Change::spreads, mapped_when_tried(setting, at, edit));
   for (const std::size_t k : points) transition.contacts.push_back(static_cast<Index>(k));
+  for (const FreeEnd& end : planes) {
+    const auto contact = static_cast<Index>(contact_of(setting, at, end));
+    if (transition.contacts.empty() || transition.contacts.back() != contact) transition.contacts.push_back(contact);
+  }
   return transition;
 }
 
@@ -150,10 +176,41 @@ Shares shares_of_end(const SlidingSetting& setting, const SlidingState& at, std:
   return ends_arch ? Shares{.length = 1.0, .force = 1.0} : Shares{.length = 0.0, .force = 0.0};
 }
 
-// Each of the points, ascending, becomes two, a short way apart; `neutral`: spans beside them that are then. Where the
-// body lies by itself the part is flat, but for one with a point load inside, which is handed on as a pressed one does.
-Transition spread(const SlidingSetting& setting, const SlidingState& at, const Points& points, Span between,
-                  double length, const NeutralSides* neutral = nullptr) {
+// The half of such a stretch that begins at a plane of symmetry; the number of the point at its edge.
+std::size_t spread_from(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end, Span between,
+                        double length, bool may_be_neutral, LayoutEdit& edit) {
+  constexpr double round_off = 1e-9;  // of forces
+  const HeldAxis held = held_axis_at_end(setting, at, end);
+  const double s = end.last ? setting.body.length(end.strand) - length : length;
+  const std::size_t contact = contact_of(setting, at, end) - at.layout.points().size();
+  const double load = put_on_end(setting, at, end);
+  if (lies_by_itself(setting, at, held)) between = load > round_off * setting.scales.force ? Span::pressed : Span::flat;
+  const bool stays = between == Span::pressed;
+  const bool neutral = may_be_neutral && is_neutral_from_plane(setting, at, end, length);
+  const double force = setting.free_ends[contact].joined.empty() ? edit.end_forces[contact] : 0.0;
+  edit.ends_closed[contact] = static_cast<std::uint8_t>(stays);
+  edit.end_forces[contact] = stays ? std::max(load, 0.0) : 0.0;
+  const int rest = edit.elements[static_cast<std::size_t>(end.strand)][edit.part_at(end.strand, s).place].elements;
+  const bool straight = obstacle_is_straight(setting, at, held.touch);
+  const int fewest = between == Span::pressed ? std::max(fewest_pressed(straight) / 2, 2) : 1;
+  const int part = elements_asked(setting.body, end.strand, 0.0, length, fewest);
+  return edit.insert({.point = {.obstacle = end.obstacle,
+                                .behind = end.last ? between : Span::free,
+                                .before = end.last ? Span::free : between,
+                                .neutral_behind = !end.last && neutral,
+                                .neutral_before = end.last && neutral},
+                      .strand = end.strand,
+                      .s = s,
+                      .closed = true,
+                      .force = force - edit.end_forces[contact]},
+                     end.last ? rest : part, end.last ? part : rest);
+}
+
+// Each of the points, ascending, becomes two, a short way apart, and the half that is there of each point in a plane
+// one; `neutral`: spans beside them that are then. Where the body lies by itself the part is flat, but for one with a
+// point load inside, which is handed on as a pressed one does.
+Transition spread(const SlidingSetting& setting, const SlidingState& at, const Points& points, const Planes& planes,
+                  Span between, double length, const NeutralSides* neutral = nullptr) {
   LayoutEdit edit = edit_of(setting.body, at);
   if (neutral != nullptr) {
     make_neutral(*neutral, edit);
@@ -182,7 +239,13 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
                 between_them, behind);
     edit.points[*k].behind = span;
   }
-  return with_spans(setting, at, points, edit, length);
+  std::shared_ptr<const Observable> of_one;
+  if (!points.empty()) of_one = std::make_shared<SpanLength>(points.front());
+  for (auto end = planes.rbegin(); end != planes.rend(); ++end) {
+    const std::size_t edge = spread_from(setting, at, *end, between, length, neutral != nullptr, edit);
+    of_one = std::make_shared<TailLength>(edge, end->last ? setting.body.length(end->strand) : 0.0);
+  }
+  return with_spans(setting, at, points, edit, length, std::move(of_one), planes);
 }
 
 // A stretch about a point in which the pressure that would hold the body there changes its sign:
@@ -254,7 +317,8 @@ std::optional<Transition> spread_half_pressed(const SlidingSetting& setting, con
     edit.insert(end, second, behind);
     first_span = stretch->lift_off - stretch->from;
   }
-  Transition transition = with_spans(setting, at, points, edit, first_span);
+  Transition transition =
+      with_spans(setting, at, points, edit, first_span, std::make_shared<SpanLength>(points.front()));
   transition.least = 0.5 * first_span;  // its arch is at least twice the shortest there is
   return transition;
 }
@@ -269,11 +333,12 @@ bool is_of_one_kind(const SlidingSetting& setting, const SlidingState& at, std::
 
 // Of new parts: a quarter of an element. On a straight wall they may be shorter, and are where that keeps the pressure
 // of one sign, so that no part is begun which has lifted off already, and point loads outside, which come in later.
-double first_length(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
-  const Index strand = at.mesh.breakpoint(static_cast<Index>(points.front())).first;
+double first_length(const SlidingSetting& setting, const SlidingState& at, const Points& points,
+                    const HeldAxis& first) {
+  const Index strand = first.touch.strand;
   const double length = 2.0 * shortest_span(setting.body, strand);
   const double least = 2.0 * shortest_span_on_straight(setting.body, strand);
-  if (!obstacle_is_straight(setting, at, points.front())) return length;
+  if (!obstacle_is_straight(setting, at, first.touch)) return length;
   for (double shorter = length; shorter >= least; shorter *= 0.5)
     if (std::all_of(points.begin(), points.end(),
                     [&](std::size_t k) { return is_of_one_kind(setting, at, k, shorter); }))
@@ -284,24 +349,30 @@ double first_length(const SlidingSetting& setting, const SlidingState& at, const
 // Where the wall is straight and the body lies on it by itself, the part between is flat; else pressure holds it, or it
 // arches off the wall. Half pressed ones are begun longer, and come first only where the pressure changes its sign at
 // once: far from the change a longer one may be on a part of the path that is still to come. Last comes a shorter one.
-std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
+// At a plane of symmetry the pressure is as great before it as behind it, and has one sign there.
+std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points,
+                                const Planes& planes) {
   constexpr double shorter = 0.6;
-  const double length = first_length(setting, at, points);
-  const auto is_all = [&](const auto& holds) { return std::all_of(points.begin(), points.end(), holds); };
-  const auto lifts_off_straight = [&](std::size_t k) {
-    return holding_pressure(setting, at, k) < 0.0 && obstacle_curvature(setting, at, k) == 0.0;
+  const std::vector<HeldAxis> held = held_axes(setting, at, points, planes);
+  const double length = first_length(setting, at, points, held.front());
+  const auto is_all = [&](const auto& holds) { return std::all_of(held.begin(), held.end(), holds); };
+  const auto lifts_off_straight = [&](const HeldAxis& axis) {
+    return holding_pressure(setting, at, axis) < 0.0 && obstacle_curvature(setting, at, axis.touch) == 0.0;
   };
   std::vector<Transition> transitions;
   const auto try_half_pressed = [&] {
+    if (!planes.empty()) return;
     for (const double factor : {2.0, 4.0})
       if (auto transition = spread_half_pressed(setting, at, points, factor * length))
         transitions.push_back(std::move(*transition));
   };
   const auto spread_to = [&](Span between, double by) {
-    transitions.push_back(spread(setting, at, points, between, by));
+    transitions.push_back(spread(setting, at, points, planes, between, by));
   };
-  const bool changes_at_once = is_all([&](std::size_t k) { return pressure_changes_sign(setting, at, k, length); });
-  const bool all_flat = is_all([&](std::size_t k) { return lies_by_itself(setting, at, k); });
+  const bool changes_at_once = planes.empty() && std::all_of(points.begin(), points.end(), [&](std::size_t k) {
+                                 return pressure_changes_sign(setting, at, k, length);
+                               });
+  const bool all_flat = is_all([&](const HeldAxis& axis) { return lies_by_itself(setting, at, axis); });
   const bool all_lift_off = is_all(lifts_off_straight);
   if (changes_at_once) try_half_pressed();
   spread_to(all_flat ? Span::flat : all_lift_off ? Span::free : Span::pressed, length);
@@ -320,17 +391,26 @@ Points points_without_curvature(const SlidingSetting& setting, const SlidingStat
   return points;
 }
 
+// The ends on planes of symmetry that do so.
+Planes planes_without_curvature(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
+  Planes planes;
+  for (const ClampBound* bound : reached<ClampBound>(setting, at, arrival))
+    if (setting.body.is_on_plane(bound->strand(), bound->last()))
+      planes.push_back(touched_clamp(setting, at, bound->strand(), bound->last()).value());
+  return planes;
+}
+
 // A structure that is symmetric but for what hardly counts, as soft springs do, has points that lose their curvature so
 // soon after each other that none is found between: all of them may spread then.
 std::vector<Transition> spreads_with_those_near(const SlidingSetting& setting, const SlidingState& at,
-                                                const Points& points, const Arrival& arrival) {
+                                                const Points& points, const Planes& planes, const Arrival& arrival) {
   constexpr double near = 1e-5;  // of curvatures, as reached() takes it
-  std::vector<Transition> transitions = spreads(setting, at, points);
+  std::vector<Transition> transitions = spreads(setting, at, points, planes);
   const Points all = points_without_curvature(
       setting, at, {.forward = arrival.forward, .tolerance = near, .at_hand = arrival.at_hand});
   if (all.size() > points.size())
-    for (Transition& transition : spreads(setting, at, all)) transitions.push_back(std::move(transition));
-  transitions.push_back(unsupported(why_none_spreads(setting, at, points)));
+    for (Transition& transition : spreads(setting, at, all, planes)) transitions.push_back(std::move(transition));
+  transitions.push_back(unsupported(why_none_spreads(setting, at, points, planes)));
   return transitions;
 }
 
@@ -360,20 +440,53 @@ std::optional<Span> lies_down_as(const SlidingSetting& setting, const SlidingSta
   return by_itself && is_straight_behind(at, point) ? std::optional(Span::flat) : std::nullopt;
 }
 
-// Free spans between two of the points on which the body comes to lie from one to the other. Empty where there are
-// none.
+// An arch between a point and a plane of symmetry, at which the body is off its obstacle.
+struct HalfArch {
+  std::size_t point, contact;  // at its end, and of the end on the plane
+  bool last;
+};
+
+// The arches to planes that a load which λ drives lets go of all along, and which come to lie as it vanishes.
+std::vector<HalfArch> half_arches_lying_down(const SlidingSetting& setting, const SlidingState& at,
+                                             const Points& points) {
+  std::vector<HalfArch> found;
+  for (const std::size_t k : points)
+    for (const bool last : {false, true}) {
+      const Index strand = at.mesh.breakpoint(static_cast<Index>(k)).first;
+      const StrandEnd of{.strand = strand, .last = last};
+      const auto end = setting.number_of_end(of, at.layout.points()[k].obstacle);
+      if (!end || at.layout.point_at_end(strand, last) != k || at.layout.span_at_end(strand, last) != Span::free)
+        continue;
+      const std::size_t contact = at.layout.points().size() + *end;
+      const double far = (last ? setting.body.length(strand) : 0.0) - at.s(static_cast<Index>(k));
+      if (is_tangent_at_plane(setting, at, setting.free_ends[*end].seen_from(of)) && !at.is_closed(contact) &&
+          obstacle_is_straight(setting, at, k, far) && holding_pressure_rate(setting, at, k) != 0.0)
+        found.push_back({.point = k, .contact = contact, .last = last});
+    }
+  return found;
+}
+
+// Free spans between two of the points, or from one to a plane, on which the body comes to lie from one to the other.
+// Empty where there are none.
 std::optional<Transition> spans_lie_down(const SlidingSetting& setting, const SlidingState& at, const Points& points,
                                          const Direction& forward) {
   constexpr int fewest_of_buckling = 8;  // elements of a flat part that may buckle
   std::vector<std::pair<std::size_t, Span>> lying;
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
     if (const auto span = lies_down_as(setting, at, points[i])) lying.emplace_back(points[i], *span);
-  if (lying.empty()) return std::nullopt;
+  const std::vector<HalfArch> halves = half_arches_lying_down(setting, at, points);
+  if (lying.empty() && halves.empty()) return std::nullopt;
   Transition transition = remeshed(setting, at, forward, [&](LayoutEdit& edit, const SlidingState&) {
     for (const auto& [k, span] : lying) {
       edit.points[k].behind = span;
       int& elements = edit.elements_behind(k);
       elements = std::max(elements, span == Span::flat ? fewest_of_buckling : fewest_pressed(true));
+    }
+    for (const auto& [k, contact, last] : halves) {
+      (last ? edit.points[k].behind : edit.points[k].before) = Span::pressed;
+      int& elements = last ? edit.elements_behind(k) : edit.elements_before(k);
+      elements = std::max(elements, fewest_pressed(true));
+      edit.ends_closed[contact - at.layout.points().size()] = 1;
     }
   });
   transition.change = Transition::Change::spreads;
@@ -381,6 +494,7 @@ std::optional<Transition> spans_lie_down(const SlidingSetting& setting, const Sl
     if (span == Span::flat) transition.from_singular = true;  // the part is at its buckling load
     for (const std::size_t point : {k, k + 1}) transition.contacts.push_back(static_cast<Index>(point));
   }
+  for (const HalfArch& half : halves) transition.contacts.push_back(static_cast<Index>(half.point));
   return transition;
 }
 
@@ -388,17 +502,22 @@ std::optional<Transition> spans_lie_down(const SlidingSetting& setting, const Sl
 
 std::vector<Transition> points_to_lines(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
   const Points points = points_without_curvature(setting, at, arrival);
-  if (points.size() == 1)
+  const Planes planes = planes_without_curvature(setting, at, arrival);
+  if (points.size() == 1 && planes.empty())
     if (auto touches = tip_touches_with(setting, at, points.front()))
       return {std::move(*touches),
               unsupported("a free end and the contact zone beside it touch at once, but no equilibrium was found")};
+  const std::vector<HeldAxis> held = held_axes(setting, at, points, planes);
   Index lines =
-      std::count_if(points.begin(), points.end(), [&](std::size_t k) { return lies_by_itself(setting, at, k); });
+      std::count_if(held.begin(), held.end(), [&](const HeldAxis& axis) { return lies_by_itself(setting, at, axis); });
   const bool new_lines = lines > 0;
   const auto& segments = at.layout.segments();
   lines += std::count_if(segments.begin(), segments.end(), is_flat_between_points);
-  const double length = 2.0 * shortest_span(setting.body, at.mesh.breakpoint(static_cast<Index>(points.front())).first);
+  const double length = 2.0 * shortest_span(setting.body, held.front().touch.strand);
   const NeutralSides neutral = spans_made_neutral(setting, at, points, 0.5 * length);
+  const bool is_neutral = neutral.any() || std::any_of(planes.begin(), planes.end(), [&](const FreeEnd& end) {
+                            return is_neutral_from_plane(setting, at, end, length);
+                          });
   const bool is_continuum = new_lines && neutral.between_points(at.layout) > 0;
   const Continuum common = continuum_of(at, lines);
   if (is_continuum && setting.continuum == ContinuumChoice::stop) return {end_before(common)};
@@ -406,15 +525,15 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
   if (is_continuum) {
     transitions.push_back(end_before(common));
   } else {
-    transitions = spreads_with_those_near(setting, at, points, arrival);
+    transitions = spreads_with_those_near(setting, at, points, planes, arrival);
     if (auto lie_down = spans_lie_down(setting, at, points, arrival.forward)) {
       // A part that has just begun to buckle is straight, too: a flat one is the last that is tried.
       const bool is_flat = lie_down->from_singular;
       transitions.insert(is_flat ? transitions.end() - 1 : transitions.begin(), std::move(*lie_down));
     }
   }
-  if (!neutral.any()) return transitions;
-  transitions.insert(transitions.begin(), spread(setting, at, points, Span::flat, length, &neutral));
+  if (!is_neutral) return transitions;
+  transitions.insert(transitions.begin(), spread(setting, at, points, planes, Span::flat, length, &neutral));
   if (is_continuum) transitions.front().continuum = common;
   for (Transition& transition : transitions) transition.from_singular = true;
   return transitions;

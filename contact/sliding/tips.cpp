@@ -179,16 +179,6 @@ std::optional<std::string> what_hinders(const SlidingSetting& setting, const Sli
   return std::nullopt;
 }
 
-// Takes the point out that has come to a tip from inside, so that its part is pressed on its obstacle up to there.
-void press_up_to_end(const StrandEnd& end, std::size_t point, LayoutEdit& edit) {
-  const std::size_t obstacle = edit.points[point].obstacle;
-  const std::size_t inner = end.last ? point - 1 : point + 1;
-  const bool is_alone = inner >= edit.points.size() || edit.strands[inner] != end.strand;  // also of the first point
-  if (!is_alone && !end.last) edit.points[inner].before = Span::pressed;
-  edit.erase(point, end.last ? edit.elements_before(point) : edit.elements_behind(point));
-  if (is_alone) edit.set_lying(end.strand, obstacle);
-}
-
 // Takes the point out that has come to an end. A flat part of which it was the edge lifts off between its other edge,
 // which becomes a point contact, and the end: nothing holds a moment at the end but that of an arch.
 void erase_before_end(const SlidingSetting& setting, const StrandEnd& end, bool flat, std::size_t point,
@@ -244,14 +234,9 @@ Row put_on_end_gradient(const SlidingSetting& setting, const SlidingState& at, c
 }
 
 std::optional<std::size_t> pressed_contact(const SlidingSetting& setting, const SlidingState& at, const StrandEnd& of) {
-  for (const SlidingContactLayout::PressedTip& tip : at.layout.pressed_tips()) {
-    if (tip.strand != of.strand || (tip.position > 0) != of.last) continue;
-    for (std::size_t j = 0; j < setting.free_ends.size(); ++j)
-      if (setting.free_ends[j].is_of(of) && setting.free_ends[j].obstacle == tip.obstacle &&
-          at.is_closed(at.layout.points().size() + j))
-        return j;
-  }
-  return std::nullopt;
+  const auto obstacle = at.layout.pressed_up_to(of);
+  const auto contact = obstacle ? setting.number_of_end(of, *obstacle) : std::nullopt;
+  return contact && at.is_closed(at.layout.points().size() + *contact) ? contact : std::nullopt;
 }
 
 std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
@@ -314,7 +299,7 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
     edit.ends_closed[end] = 1;
     is_pressed = inner == Span::pressed;
     if (is_pressed) {
-      press_up_to_end(of, point, edit);
+      edit.press_up_to_end(point, last, last ? edit.elements_before(point) : edit.elements_behind(point));
     } else {
       erase_before_end(setting, of, inner == Span::flat, point, edit);
     }

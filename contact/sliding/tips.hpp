@@ -15,7 +15,7 @@ namespace arcwall::sliding {
 double put_on_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 Row put_on_end_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
-/// The closed contact of a tip with the obstacle on which a part is pressed up to there, by its number among the free
+/// The closed contact of an end with the obstacle on which a part is pressed up to there, by its number among the free
 /// ends; empty where there is none.
 std::optional<std::size_t> pressed_contact(const SlidingSetting& setting, const SlidingState& at, const StrandEnd& of);
 

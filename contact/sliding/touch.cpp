@@ -1,5 +1,6 @@
 #include "contact/sliding/touch.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace arcwall::sliding {
@@ -62,6 +63,22 @@ bool lies_flat(const SlidingSetting& setting, const SlidingContactLayout& layout
   const auto point = layout.point_at_end(end.strand, end.last);
   return point && layout.points()[*point].obstacle == end.obstacle &&
          layout.span_at_end(end.strand, end.last) == SlidingContactLayout::Span::flat;
+}
+
+bool is_inside_zone(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact) {
+  if (contact < layout.points().size()) return false;
+  const FreeEnd& end = setting.free_ends[contact - layout.points().size()];
+  if (!setting.body.is_on_plane(end.strand, end.last)) return false;
+  const auto is_pressed = [&](const StrandEnd& of) { return layout.pressed_up_to(of) == end.obstacle; };
+  return is_pressed({.strand = end.strand, .last = end.last}) ||
+         std::any_of(end.joined.begin(), end.joined.end(), is_pressed);
+}
+
+bool is_tangent_at_plane(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  constexpr double parallel = 1e-9;  // [rad]
+  if (!setting.body.is_on_plane(end.strand, end.last)) return false;
+  const Touch touch = touch_of_end(setting, at.layout, end);
+  return std::isfinite(face_gap(setting, touch, at)) && std::abs(touch_gap(setting, touch, at).tilt.value) <= parallel;
 }
 
 Touch touch_of_node(const SlidingSetting& setting, const SlidingContactLayout::PressedNode& node) {

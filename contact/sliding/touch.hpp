@@ -21,6 +21,13 @@ Touch touch_of_end(const SlidingSetting& setting, const SlidingContactLayout& la
 /// Whether a contact is that of a free end up to which the body lies on the same obstacle without pressure.
 bool lies_flat(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact);
 
+/// Whether a contact is that of an end on a plane of symmetry up to which the body is pressed on the same obstacle: it
+/// is a node inside the zone of the whole body.
+bool is_inside_zone(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact);
+
+/// Whether the obstacle of an end on a plane of symmetry is parallel to the body there, as in the middle of the whole.
+bool is_tangent_at_plane(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+
 Touch touch_of_node(const SlidingSetting& setting, const SlidingContactLayout::PressedNode& node);
 Touch touch_of_tip(const SlidingSetting& setting, const SlidingContactLayout::PressedTip& tip);
 

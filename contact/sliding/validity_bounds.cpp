@@ -40,7 +40,9 @@ bool has_tail(const SlidingBody& body, const SlidingContactLayout& on, Index str
 void add_of_segment(const SlidingBody& body, const SlidingContactLayout& on, std::size_t i, Bounds& to) {
   const SlidingContactLayout::Segment& segment = on.segments()[i];
   const bool touched = segment.first_point >= 0 || segment.last_point >= 0;
-  const bool between_points = segment.first_point >= 0 && segment.last_point >= 0;
+  const auto is_held = [&](Index point, bool last) { return point >= 0 || body.is_on_plane(segment.strand, last); };
+  const bool between_points =
+      segment.has_point() && is_held(segment.first_point, false) && is_held(segment.last_point, true);
   const bool flat = segment.span == Span::flat && between_points;
   const bool to_load = touched && (segment.first_load >= 0 || segment.last_load >= 0);
   add_if<LengthBound>(on.joins_one_obstacle(segment), to, static_cast<std::size_t>(segment.first_point));
@@ -50,7 +52,8 @@ void add_of_segment(const SlidingBody& body, const SlidingContactLayout& on, std
   add_if<RoomBound>(touched && !to_load && !is_tail && !on.joins_one_obstacle(segment), to, i);
   add_if<HalfWaveBound>(flat && segment.elements == 1, to, i);
   add_if<StraightBound>(flat && segment.elements > 1, to, i);
-  add_if<LoadedPartBound>(segment.span == Span::pressed && between_points && on.hands_loads_on(i), to, i);
+  const bool at_plane = between_points && (segment.first_point < 0 || segment.last_point < 0);
+  add_if<LoadedPartBound>(segment.span == Span::pressed && between_points && (at_plane || on.hands_loads_on(i)), to, i);
   if (flat || on.points().empty()) return;
   add_if<CoarseBound>(true, to, i);
   add_if<FineBound>(FineBound::is_needed(body, on, segment), to, i);
@@ -107,12 +110,14 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
   for (std::size_t i = 0; i < on.neutral_spans().size(); ++i) add_if<NeutralBound>(true, bounds, i);
   for (Index strand = 0; strand < body.strands(); ++strand)
     for (const bool last : {false, true}) {
-      const bool free = !body.end_is_held(strand, last);
+      const bool on_plane = body.is_on_plane(strand, last), free = !body.end_is_held(strand, last) || on_plane;
       add_if<LiesDownBound>(free || body.is_on_roller(strand, last), bounds, strand, last);
       add_if<UprightBound>(free, bounds, strand, last);
       add_if<EndStaysBound>(!free && on.lies_on(strand).has_value(), bounds, strand, last);
       add_if<StraightEndBound>(on.lies_on(strand).has_value(), bounds, strand, last);
-      add_if<ClampBound>(body.is_clamped(strand, last) || body.is_hinged(strand, last), bounds, strand, last);
+      add_if<ClampBound>(body.is_clamped(strand, last) || body.is_hinged(strand, last) || on_plane, bounds, strand,
+                         last);
+      add_if<TipPressesBound>(on_plane && on.span_at_end(strand, last) == Span::pressed, bounds, strand, last);
       add_if<TailBound>(has_tail(body, on, strand, last), bounds, strand, last,
                         on.point_at_end(strand, last).value_or(0));
     }

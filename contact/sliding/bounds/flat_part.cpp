@@ -3,9 +3,11 @@
 #include <optional>
 #include <vector>
 
+#include "contact/sliding/part_loads.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
+#include "contact/sliding/tips.hpp"
 
 namespace arcwall::sliding {
 
@@ -17,38 +19,70 @@ constexpr double held_half_waves = 4.0;  // squared: a stretch whose slope is he
 // A stretch of a straight part between two points.
 struct Stretch {
   double from, to;
-  std::optional<Index> first, last;  ///< the tracked points at its ends; empty: a load, which stays
+  std::optional<Index> first, last;  ///< the tracked points at its ends; empty: a load or an end, which stays
+  bool is_half = false;              ///< up to a plane of symmetry, beyond which it goes on as far
+
+  double length() const { return (is_half ? 2.0 : 1.0) * (to - from); }
 };
 
-Stretch whole_part(const SlidingState& at, std::size_t segment) {
-  const Index k = at.layout.segments()[segment].last_point;
-  return {.from = at.s(k - 1), .to = at.s(k), .first = k - 1, .last = k};
+Stretch whole_part(const SlidingSetting& setting, const SlidingState& at, std::size_t segment) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
+  const auto [from, to] = at.layout.ends(setting.body, part, at.now.s);
+  const auto point = [](Index k) { return k >= 0 ? std::optional(k) : std::nullopt; };
+  return {.from = from,
+          .to = to,
+          .first = point(part.first_point),
+          .last = point(part.last_point),
+          .is_half = part.first_point < 0 || part.last_point < 0};
 }
 
 // The longest one between the ends of a part and the point loads that it hands on.
 Stretch longest_between_loads(const SlidingSetting& setting, const SlidingState& at, std::size_t segment) {
-  const Stretch whole = whole_part(at, segment);
+  const Stretch whole = whole_part(setting, at, segment);
   const std::vector<double>& places = setting.body.point_loads(at.layout.segments()[segment].strand);
+  // An end on a plane of symmetry that a load presses on the wall is one of the loads.
+  const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
+  const auto goes_on_beyond = [&](bool last) {
+    const StrandEnd end{.strand = part.strand, .last = last};
+    const auto contact = setting.number_of_end(end, obstacle_of_part(at, segment));
+    return contact && !(put_on_end(setting, at, setting.free_ends[*contact].seen_from(end)) > 0.0);
+  };
   Stretch longest{.from = whole.from, .to = whole.from, .first = {}, .last = {}}, rest = whole;
+  rest.is_half = part.first_point < 0 && goes_on_beyond(false);
   const auto take = [&](const Stretch& stretch) {
-    if (stretch.to - stretch.from > longest.to - longest.from) longest = stretch;
+    if (stretch.length() > longest.length()) longest = stretch;
   };
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!at.layout.hands_on(segment, static_cast<Index>(i))) continue;
-    take({.from = rest.from, .to = places[i], .first = rest.first, .last = {}});
+    take({.from = rest.from, .to = places[i], .first = rest.first, .last = {}, .is_half = rest.is_half});
     rest.from = places[i];
     rest.first.reset();
+    rest.is_half = false;
   }
+  rest.is_half = rest.is_half || (part.last_point < 0 && goes_on_beyond(true));
   take(rest);
   return longest;
+}
+
+// At the end of a segment, just inside.
+AxisStrain strain_in(const SlidingState& at, std::size_t segment) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
+  return part.last_point >= 0 ? at.mesh.strain(part.last_point, SlidingMesh::At::before, at.now)
+                              : at.mesh.strain(part.first_point, SlidingMesh::At::behind, at.now);
+}
+
+AxisStrainGradient strain_gradient_in(const SlidingState& at, std::size_t segment) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
+  return part.last_point >= 0 ? at.mesh.strain_gradient(part.last_point, SlidingMesh::At::before, at.now)
+                              : at.mesh.strain_gradient(part.first_point, SlidingMesh::At::behind, at.now);
 }
 
 // (k d/π)² of a part of a segment, its length in half waves, squared: k² = P λ/EI is the wave number of a straight part
 // under the thrust P = EA (1 + e − λ), λ its stretch and e that without force.
 double squared_half_waves(const SlidingSetting& setting, const SlidingState& at, std::size_t segment,
                           const Stretch& part) {
-  const Index strand = at.layout.segments()[segment].strand, point = at.layout.segments()[segment].last_point;
-  const double d = part.to - part.from, stretch = at.mesh.strain(point, SlidingMesh::At::before, at.now).stretch;
+  const Index strand = at.layout.segments()[segment].strand;
+  const double d = part.length(), stretch = strain_in(at, segment).stretch;
   const double EA = setting.body.axial_stiffness(strand), EI = setting.body.bending_stiffness(strand);
   const double free = 1.0 + setting.body.free_strain(strand, at.now.lambda).value;
   return EA * (free - stretch) * stretch / EI * d * d / (pi * pi);
@@ -56,17 +90,17 @@ double squared_half_waves(const SlidingSetting& setting, const SlidingState& at,
 
 Row squared_half_waves_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t segment,
                                 const Stretch& part, double sign) {
-  const Index strand = at.layout.segments()[segment].strand, point = at.layout.segments()[segment].last_point;
-  const AxisStrainGradient strain = at.mesh.strain_gradient(point, SlidingMesh::At::before, at.now);
+  const Index strand = at.layout.segments()[segment].strand;
+  const AxisStrainGradient strain = strain_gradient_in(at, segment);
   const double EA = setting.body.axial_stiffness(strand), EI = setting.body.bending_stiffness(strand);
-  const double d = part.to - part.from, factor = sign * EA / EI / (pi * pi), stretch = strain.stretch;
+  const double d = part.length(), factor = sign * EA / EI / (pi * pi), stretch = strain.stretch;
   const SlidingBody::FreeStrain heat = setting.body.free_strain(strand, at.now.lambda);
   const double free = 1.0 + heat.value, by_stretch = factor * (free - 2.0 * stretch) * d * d;
   Row row = at.no_slope();
   row.dx.head(at.index.nodes) = by_stretch * strain.stretch_dx;
   row.dx.tail(at.index.points) = by_stretch * strain.stretch_ds;
   row.dlambda = by_stretch * strain.stretch_dlambda + factor * heat.rate * stretch * d * d;
-  const double by_length = factor * (free - stretch) * stretch * 2.0 * d;
+  const double by_length = factor * (free - stretch) * stretch * 2.0 * d * (part.is_half ? 2.0 : 1.0);
   if (part.last) row.dx[at.index.coordinate(*part.last)] += by_length;
   if (part.first) row.dx[at.index.coordinate(*part.first)] -= by_length;
   return row;
@@ -75,26 +109,27 @@ Row squared_half_waves_gradient(const SlidingSetting& setting, const SlidingStat
 }  // namespace
 
 double HalfWaveBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  return 1.0 - squared_half_waves(setting, at, segment_, whole_part(at, segment_));
+  return 1.0 - squared_half_waves(setting, at, segment_, whole_part(setting, at, segment_));
 }
 
 Row HalfWaveBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  return squared_half_waves_gradient(setting, at, segment_, whole_part(at, segment_), -1.0);
+  return squared_half_waves_gradient(setting, at, segment_, whole_part(setting, at, segment_), -1.0);
 }
 
 std::vector<Transition> HalfWaveBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                    const Arrival& arrival) const {
   const Index strand = at.layout.segments()[segment_].strand;
-  const int elements = elements_asked(setting.body, strand, 0.0, setting.body.length(strand), 8);
+  const int fewest = whole_part(setting, at, segment_).is_half ? 4 : 8;
+  const int elements = elements_asked(setting.body, strand, 0.0, setting.body.length(strand), fewest);
   return {with_elements(setting, at, arrival.forward, segment_, elements)};
 }
 
 double StraightBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  return squared_half_waves(setting, at, segment_, whole_part(at, segment_)) - shortest_flat * shortest_flat;
+  return squared_half_waves(setting, at, segment_, whole_part(setting, at, segment_)) - shortest_flat * shortest_flat;
 }
 
 Row StraightBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  return squared_half_waves_gradient(setting, at, segment_, whole_part(at, segment_), 1.0);
+  return squared_half_waves_gradient(setting, at, segment_, whole_part(setting, at, segment_), 1.0);
 }
 
 std::vector<Transition> StraightBound::transitions(const SlidingSetting& setting, const SlidingState& at,

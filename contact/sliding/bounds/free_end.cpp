@@ -48,6 +48,7 @@ std::optional<std::size_t> end_nearest_to_lying_down(const SlidingSetting& setti
   double least = 0.0;
   for (std::size_t j = 0; j < setting.free_ends.size(); ++j) {
     if (!at.is_closed(points + j) || !setting.free_ends[j].is_of(of)) continue;
+    if (is_tangent_at_plane(setting, at, setting.free_ends[j].seen_from(of))) continue;
     const double sine = sine_from_end(setting, at, setting.free_ends[j].seen_from(of));
     if (nearest && sine >= least) continue;
     nearest = j;

@@ -12,8 +12,8 @@ double sine_from_end(const SlidingSetting& setting, const SlidingState& at, cons
 Row sine_from_end_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
 /// Of the closed contacts of an end of a strand the one whose obstacle the body leaves at the least angle: its number
-/// among the free ends. An end in a corner between walls touches several. None where the end does not touch, or where
-/// the body lies on an obstacle beside it.
+/// among the free ends. An end in a corner between walls touches several. None where the end does not touch, where the
+/// body lies on an obstacle beside it, or at a plane of symmetry that the obstacle crosses at right angles.
 std::optional<std::size_t> end_nearest_to_lying_down(const SlidingSetting& setting, const SlidingState& at,
                                                      const StrandEnd& of);
 

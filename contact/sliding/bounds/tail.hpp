@@ -22,9 +22,15 @@ class TailBound final : public ValidityBound {
   /// Whether what becomes short is a stretch on the wall up to a support, at which it gathers.
   bool gathers_at_support(const SlidingSetting& setting, const SlidingState& at) const;
 
+  /// Whether it is a free span at a plane of symmetry, from which the whole body has zones on both sides.
+  bool closes_at_plane(const SlidingSetting& setting, const SlidingState& at) const;
+
   std::size_t point() const { return point_; }
 
  private:
+  // Whether the end is on a plane of symmetry that the point's obstacle crosses at right angles.
+  bool is_at_plane(const SlidingSetting& setting, const SlidingState& at) const;
+
   Index strand_;
   bool last_;
   std::size_t point_;

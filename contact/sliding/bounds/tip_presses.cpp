@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "contact/sliding/lifting.hpp"
 #include "contact/sliding/tips.hpp"
 #include "contact/sliding/touch.hpp"
 
@@ -32,6 +33,7 @@ Row TipPressesBound::gradient(const SlidingSetting& setting, const SlidingState&
 
 std::vector<Transition> TipPressesBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                      const Arrival& arrival) const {
+  if (setting.body.is_on_plane(strand_, last_)) return load_at_plane_lifts_off(setting, at, end(), arrival);
   std::vector<StrandEnd> lifted;
   for (const TipPressesBound* bound : reached<TipPressesBound>(setting, at, arrival))
     if (bound->end().strand == strand_) lifted.push_back(bound->end());
