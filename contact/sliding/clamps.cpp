@@ -42,15 +42,8 @@ Transition with_parts(const SlidingSetting& setting, const SlidingState& at, con
     const auto [strand, last] = std::pair(clamp->strand(), clamp->last());
     const std::size_t obstacle = touched_clamp(setting, at, strand, last).value().obstacle;
     const double s = last ? setting.body.length(strand) - length : length;
-    const int rest = edit.elements[static_cast<std::size_t>(strand)][edit.part_at(strand, s).place].elements;
     const int part = elements_asked(setting.body, strand, std::min(s, s + length), std::max(s, s + length), 2);
-    edit.insert({.point = {.obstacle = obstacle,
-                           .behind = last ? Span::pressed : Span::free,
-                           .before = last ? Span::free : Span::pressed},
-                 .strand = strand,
-                 .s = s,
-                 .closed = true},
-                last ? rest : part, last ? part : rest);
+    edit.insert_near_end({strand, last}, s, obstacle, Span::pressed, Span::free, part);
   }
   const auto on = layout_of(edit);
   const ClampBound& first = *clamps.front();

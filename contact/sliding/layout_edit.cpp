@@ -208,6 +208,17 @@ std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elem
   return k;
 }
 
+void LayoutEdit::insert_near_end(const StrandEnd& end, double place, std::size_t obstacle,
+                                 SlidingContactLayout::Span outer, SlidingContactLayout::Span inner,
+                                 int elements_outside, double force) {
+  const auto [strand, last] = end;
+  const int rest = elements[static_cast<std::size_t>(strand)][part_at(strand, place).place].elements;
+  const SlidingContactLayout::Point point{
+      .obstacle = obstacle, .behind = last ? outer : inner, .before = last ? inner : outer};
+  insert({.point = point, .strand = strand, .s = place, .closed = true, .force = force}, last ? rest : elements_outside,
+         last ? elements_outside : rest);
+}
+
 // As many as they have together.
 void LayoutEdit::settle_undivided(Index strand, std::size_t place) {
   const std::vector<MeshSegment>& segments = elements[static_cast<std::size_t>(strand)];

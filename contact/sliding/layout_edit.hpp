@@ -52,6 +52,11 @@ struct LayoutEdit {
   /// entry says so; which point it is now.
   std::size_t insert(const Entry& entry, int elements_before, int elements_behind);
 
+  /// Inserts the closed edge of a zone near an end of a strand: `outer` is the span up to the end, with so many
+  /// elements.
+  void insert_near_end(const StrandEnd& end, double place, std::size_t obstacle, SlidingContactLayout::Span outer,
+                       SlidingContactLayout::Span inner, int elements_outside, double force = 0.0);
+
   /// The segments before and behind a point become one with so many elements.
   void erase(std::size_t point, int of_both);
 

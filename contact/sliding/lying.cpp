@@ -185,15 +185,9 @@ std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingSt
     if (length > 0.5 * L / double(ends.size())) break;
     LayoutEdit edit = edit_of(setting.body, at);
     edit.set_lying(strand, std::nullopt);
-    const int rest = edit.elements[static_cast<std::size_t>(strand)].front().elements;
     const int free = elements_asked(setting.body, strand, 0.0, length, 2);
-    SlidingContactLayout::Point edge{
-        .obstacle = *obstacle, .behind = Span::pressed, .before = ends.front() ? Span::pressed : Span::free};
-    for (const bool last : ends) {
-      edge.behind = last ? Span::free : Span::pressed;
-      edit.insert({.point = edge, .strand = strand, .s = last ? L - length : length, .closed = true},
-                  last ? rest : free, last ? free : rest);
-    }
+    for (const bool last : ends)
+      edit.insert_near_end({strand, last}, last ? L - length : length, *obstacle, Span::free, Span::pressed, free);
     const auto on = layout_of(edit);
     const bool last = ends.front();
     const std::size_t point = on->point_at_end(strand, last).value();

@@ -75,16 +75,9 @@ Transition with_points_inside(const SlidingSetting& setting, const SlidingState&
     const bool stays = tails[i] == Tail::pressed || tails[i] == Tail::arch || (tails[i] == Tail::flat && is_loaded);
     edit.ends_closed[end] = static_cast<std::uint8_t>(stays);
     edit.end_forces[end] = stays ? std::max(tails[i] == Tail::arch ? force : load, 0.0) : 0.0;
-    const int rest = edit.elements[static_cast<std::size_t>(strand)][edit.part_at(strand, s).place].elements;
     const Span span = span_of(tails[i]);
-    const int tail = span == Span::pressed ? 2 : 1;
-    edit.insert(
-        {.point = {.obstacle = obstacle, .behind = last ? span : Span::free, .before = last ? Span::free : span},
-         .strand = strand,
-         .s = s,
-         .closed = true,
-         .force = force - edit.end_forces[end]},
-        last ? rest : tail, last ? tail : rest);
+    edit.insert_near_end({strand, last}, s, obstacle, span, Span::free, span == Span::pressed ? 2 : 1,
+                         force - edit.end_forces[end]);
   }
   const auto on = layout_of(edit);
   const ClosedTip& first = tips.front();
@@ -339,15 +332,8 @@ std::vector<Transition> peel_off_from_tips(const SlidingSetting& setting, const 
       const auto end = pressed_contact(setting, at, {.strand = strand, .last = last});
       if (!end) return {none};
       edit.set_lying(strand, std::nullopt);
-      const int rest = edit.elements[static_cast<std::size_t>(strand)][edit.part_at(strand, s).place].elements;
-      const int tail = elements_asked(setting.body, strand, 0.0, length, 2);
-      edit.insert({.point = {.obstacle = setting.free_ends[*end].obstacle,
-                             .behind = last ? Span::free : Span::pressed,
-                             .before = last ? Span::pressed : Span::free},
-                   .strand = strand,
-                   .s = s,
-                   .closed = true},
-                  last ? rest : tail, last ? tail : rest);
+      edit.insert_near_end({strand, last}, s, setting.free_ends[*end].obstacle, Span::free, Span::pressed,
+                           elements_asked(setting.body, strand, 0.0, length, 2));
       edit.ends_closed[*end] = static_cast<std::uint8_t>(!lifted);
       contacts.push_back(static_cast<Index>(at.layout.points().size() + *end));
     }
