@@ -229,6 +229,7 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
     accepted.corners_without_progress = passed->without_progress;
     std::move(passed->events.begin(), passed->events.end(), std::back_inserter(accepted.arc.events));
     accepted.visit = std::move(passed->visit);
+    accepted.strategies = std::move(passed->strategies);
     if (!accepted.end) accepted.end = std::move(passed->end);
     end.point = std::move(passed->at);
     // Behind a change of contact that was not left nothing is counted.
@@ -296,7 +297,9 @@ ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s, Ef
   ArcEndSearch located = events_of(tools, origin, std::get<StepEnd>(std::move(step.result)));
   if (!located.end || strays_from_active_set(*located.end))
     return rejected({.outcome = StepOutcome::events_unclear, .failure = located.failure});
-  attempt.result = accept(tools, state, origin, std::move(*located.end), s);
+  Accepted accepted = accept(tools, state, origin, std::move(*located.end), s);
+  std::copy(accepted.strategies.begin(), accepted.strategies.end(), std::back_inserter(attempt.ledger.strategies));
+  attempt.result = std::move(accepted);
   return attempt;
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "continuation/corners/choice.hpp"
 #include "continuation/step/step.hpp"
@@ -25,6 +26,7 @@ struct Accepted {
   std::optional<CornerVisit> visit{};  ///< to be remembered
   int corners_without_progress = 0;
   std::optional<StepProgress> progress{};  ///< empty where the step's end was known before
+  std::vector<Strategy> strategies{};      ///< by which a change of contacts at the arc's end was passed
 };
 
 /// An attempt at the next arc.

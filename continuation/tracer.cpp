@@ -94,6 +94,7 @@ std::optional<Accepted> pass_near_bound(TraceTools& tools, const TracerState& st
     const auto& events = accepted->arc.events;
     if (std::abs(accepted->arc.to.state.lambda - lambda) > far * state.greatest_lambda) continue;
     if (std::any_of(events.begin(), events.end(), turns)) continue;
+    attempt.ledger.strategies.push_back(Strategy::near_guard);
     tell_ledger(tools.options, attempt);
     return std::move(*accepted);
   }
@@ -111,6 +112,7 @@ std::optional<Accepted> step_patiently(TraceTools& tools, const TracerState& sta
     ArcAttempt attempt = attempt_arc(tools, state, s, Effort::patient);
     auto* const accepted = std::get_if<Accepted>(&attempt.result);
     if (accepted == nullptr) continue;
+    attempt.ledger.strategies.push_back(Strategy::longer_step);
     tell_ledger(tools.options, attempt);
     return std::move(*accepted);
   }

@@ -49,6 +49,31 @@ std::string_view to_text(StepOutcome outcome) {
   return {};
 }
 
+std::string_view to_text(Strategy strategy) {
+  switch (strategy) {
+    case Strategy::tangent_guess:
+      return "tangent_guess";
+    case Strategy::beside_singular:
+      return "beside_singular";
+    case Strategy::longer_step:
+      return "longer_step";
+    case Strategy::near_guard:
+      return "near_guard";
+    case Strategy::other_zone:
+      return "other_zone";
+    case Strategy::shorter_zone:
+      return "shorter_zone";
+    case Strategy::more_iterations:
+      return "more_iterations";
+    case Strategy::unsure_zone:
+      return "unsure_zone";
+    case Strategy::nearly_degenerate:
+      return "nearly_degenerate";
+  }
+  assert(false);
+  return {};
+}
+
 // Contacts that change and other events.
 OrderedJson events_of(const Model& model, const Arc& arc) {
   OrderedJson events = OrderedJson::array();
@@ -77,6 +102,8 @@ std::string ledger_line(const Model& model, Index branch, const StepAttempt& att
   json["other_root"] =
       attempt.roots && attempt.roots->other ? OrderedJson(*attempt.roots->other) : OrderedJson(nullptr);
   json["turn"] = attempt.turn ? OrderedJson(*attempt.turn) : OrderedJson(nullptr);
+  json["strategies"] = OrderedJson::array();
+  for (const Strategy strategy : attempt.strategies) json["strategies"].push_back(to_text(strategy));
   if (attempt.accepted) {
     json["lambda"] = attempt.accepted->to.state.lambda;
     json["length"] = attempt.accepted->to.arc - attempt.arc;

@@ -109,6 +109,7 @@ def names_without_entry() -> list:
         "end reason": ("model/event_names.cpp", r"to_text\(EndReason \w+\) \{(.*?)\n\}", r'return "([\w-]+)"', 16),
         "type of bifurcation": ("model/event_names.cpp", r"to_text\(BranchType \w+\) \{(.*?)\n\}", r'return "([\w-]+)"', 4),
         "step outcome": ("model/step_ledger.cpp", r"to_text\(StepOutcome \w+\) \{(.*?)\n\}", r'return "([\w-]+)"', 14),
+        "step strategy": ("model/step_ledger.cpp", r"to_text\(Strategy \w+\) \{(.*?)\n\}", r'return "([\w-]+)"', 9),
         "monitor component": ("model/deck/words.hpp", r"(.*)", r'\{"([\w-]+)", Component::', 16),
     }
     entries = set()

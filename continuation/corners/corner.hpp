@@ -40,6 +40,7 @@ struct CornerPassed {
   std::optional<BranchEnd> end{};             ///< why nothing can be followed, where that is so
   std::optional<CornerVisit> visit{};         ///< to be remembered
   int without_progress = 0;
+  std::vector<Strategy> strategies{};  ///< that led there
 
   /// The nearest point known of the active set ahead.
   const PathPoint& ahead() const { return entered ? entered->begin : at; }

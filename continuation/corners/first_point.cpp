@@ -359,8 +359,18 @@ bool is_sought(const Transition& transition) {
 std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
                                  const StabilityCount& before, double lambda_scale) {
   std::optional<Entered> doubtful;
+  const auto strategies_of = [&](const Transition& transition, Effort effort) {
+    std::vector<Strategy> strategies;
+    if (&transition != transitions.data()) strategies.push_back(Strategy::other_zone);
+    if (effort == Effort::patient) strategies.push_back(Strategy::more_iterations);
+    return strategies;
+  };
   const auto early = [&](const Transition& transition, double part) {
     auto entered = enter_early(tools, transition, from, lambda_scale, part);
+    if (entered) {
+      entered->strategies = strategies_of(transition, Effort::usual);
+      entered->strategies.push_back(Strategy::shorter_zone);
+    }
     if (!entered || agrees_with_counts(before, from, entered->at)) return entered;
     if (!doubtful) doubtful = std::move(entered);
     return std::optional<Entered>();
@@ -368,14 +378,15 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
   for (const Effort effort : {Effort::usual, Effort::patient}) {
     for (const Transition& transition : transitions) {
       if (!leads_on(transition.change)) break;
-      auto at = enter(tools, transition, from, lambda_scale, effort);
-      if (!at && is_sought(transition)) at = enter(tools, transition, from, lambda_scale, Effort::patient);
+      Effort taken = effort;
+      auto at = enter(tools, transition, from, lambda_scale, taken);
+      if (!at && is_sought(transition)) at = enter(tools, transition, from, lambda_scale, taken = Effort::patient);
       if (!at && effort == Effort::usual)
         if (auto entered = early(transition, 1.0)) return entered;
       if (!at) continue;
       if (is_known_by_state(transition)) at = in_sense_of_counts(tools, before, from, std::move(*at));
       if (!at) continue;
-      Entered entered{.transition = &transition, .at = std::move(*at)};
+      Entered entered{.transition = &transition, .at = std::move(*at), .strategies = strategies_of(transition, taken)};
       const bool is_gathered = transition.change == Transition::Change::gathers && transition.quantity;
       const bool has_length = begins_with_length(transition);
       const bool leaves_mesh = has_length && is_beyond_mesh(tools.system, entered.at, mesh_error);
@@ -398,6 +409,7 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
         if (auto entered = early(transition, part)) return entered;
       }
   }
+  if (doubtful) doubtful->strategies.push_back(Strategy::unsure_zone);
   return doubtful;
 }
 

@@ -28,6 +28,7 @@ struct Entered {
   const Transition* transition;
   PathPoint at;
   std::optional<Beginning> begin{};
+  std::vector<Strategy> strategies{};  ///< beyond the first transition with its own length
 };
 
 /// Where an active set begins whose first point has a new span of some length: it is followed back towards spans of no

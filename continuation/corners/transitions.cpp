@@ -151,6 +151,7 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
       passed.end = end_before(transitions, tools.system.watched_place(passed.at.state, bound));
       return passed;
     }
+    passed.strategies.insert(passed.strategies.end(), entered->strategies.begin(), entered->strategies.end());
     if (begins_with_length(*entered->transition)) {
       if (!entered->begin)
         entered->begin = begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);

@@ -185,6 +185,7 @@ CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> 
     if (auto joint = leave_jointly(tools, corner, degenerate, visited)) {
       choice = std::move(joint->choice);
       at = std::move(joint->at);
+      passed.strategies.push_back(Strategy::nearly_degenerate);
     } else if (end) {
       passed.end = *end;
       passed.end->detail = with_its_place(end->detail);

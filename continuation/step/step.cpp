@@ -59,7 +59,7 @@ std::unique_ptr<PathConstraint> constraint_of(const TraceOptions& options, const
 }
 
 // From the best guess, and where that fails from the one along the tangent.
-CorrectorResult corrected(TraceTools& tools, const StepOrigin& origin, double s) {
+CorrectorResult corrected(TraceTools& tools, const StepOrigin& origin, double s, std::vector<Strategy>& strategies) {
   const PathPoint& from = origin.point();
   const auto constraint = constraint_of(tools.options, origin, s);
   if (origin.effort == Effort::patient)
@@ -67,9 +67,9 @@ CorrectorResult corrected(TraceTools& tools, const StepOrigin& origin, double s)
                                              from.tangent, s);
   CorrectorResult result = tools.corrector.correct(predicted(tools.system, tools.options.method, origin, s),
                                                    *constraint, origin.metric, from.tangent, s);
-  if (!result.converged() && origin.from.before)
-    result = tools.corrector.correct(moved(from.state, from.tangent, s), *constraint, origin.metric, from.tangent, s);
-  return result;
+  if (result.converged() || !origin.from.before) return result;
+  strategies.push_back(Strategy::tangent_guess);
+  return tools.corrector.correct(moved(from.state, from.tangent, s), *constraint, origin.metric, from.tangent, s);
 }
 
 // Whether a step leads aside: its chord lies by more than half the turn off the mean of the tangents at its ends. Where
@@ -120,7 +120,7 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
     return std::move(tried);
   };
 
-  CorrectorResult result = corrected(tools, origin, s);
+  CorrectorResult result = corrected(tools, origin, s, tried.attempt.strategies);
   tried.attempt.iterations = result.iterations;
   tried.attempt.residual = result.residual;
   tried.attempt.roots = result.roots;
@@ -175,7 +175,9 @@ StepTried try_step_clear_of_singular(TraceTools& tools, const StepOrigin& origin
   tools.corrector.track_from(origin.from.nearest());
   StepTried shorter = try_step(tools, origin, beside_singular * s);
   const StepEnd* const other = std::get_if<StepEnd>(&shorter.result);
-  return other && other->point.negative_eigenvalues ? std::move(shorter) : std::move(tried);
+  if (!other || !other->point.negative_eigenvalues) return tried;
+  shorter.attempt.strategies.push_back(Strategy::beside_singular);
+  return shorter;
 }
 
 }  // namespace arcwall

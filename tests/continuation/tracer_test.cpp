@@ -372,6 +372,21 @@ TEST(Tracer, AContactThatMissesACornerByTheErrorOfAMeshBelongsToIt) {
   }
 }
 
+// The step log names the strategy of the one step that used it.
+TEST(Tracer, LogsThatContactsChangedWithinTheMeshError) {
+  const auto strategies_of = [](double epsilon) {
+    std::vector<Strategy> used;
+    TraceOptions options{.target_values = {stop_at_lambda(0.4), stop_at_lambda(2.0)}};
+    options.ledger = [&](const StepAttempt& attempt) {
+      used.insert(used.end(), attempt.strategies.begin(), attempt.strategies.end());
+    };
+    trace(strut_between_stops(epsilon), options, {.x = Vector{{0.0, 1.0, 0.5}}, .lambda = 0.5, .active_set = {1, 0}});
+    return used;
+  };
+  EXPECT_EQ(strategies_of(1e-9), std::vector{Strategy::nearly_degenerate});
+  EXPECT_TRUE(strategies_of(1e-3).empty());
+}
+
 // What is a gap on any mesh is none of the corner's: the strut falls back, unstable.
 TEST(Tracer, AContactThatIsOpenWhereAnotherIsLetGoIsNoneOfTheCorner) {
   const Branch branch = of_strut(1e-3);
