@@ -485,9 +485,10 @@ bool is_of_section_forces(deck::Component component) {
 
 namespace {
 
-// What nodal forces, which are small differences of great ones, or places leave of zero.
+// What nodal forces, which are small differences of great ones, and places, to the corrector's tolerance, leave of
+// zero.
 double roundoff_of(const deck::Deck& deck, const Measured& from, const MonitorColumn& column) {
-  constexpr double of_forces = 10.0, of_places = 1e-14;
+  constexpr double of_forces = 10.0, of_places = 1e-12;
   const double length = from.structure.length_scale(), force = of_forces * from.structure.force_roundoff();
   switch (column.component) {
     case deck::Component::reaction_x:
