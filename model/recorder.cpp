@@ -165,7 +165,9 @@ void Recorder::add_event(RecordEvent event) {
   event.step = branch().points - 1;
   RecordPoint& point = record_.points.back();
   event.unstable_load_control = point.unstable_load_control;
-  if (!point.event || changes_contact(*point.event) || !changes_contact(event.kind)) point.event = event.kind;
+  const bool adds_nothing = point.event && event.kind == EventKind::value_crossing;
+  const bool is_told = !point.event || changes_contact(*point.event) || !changes_contact(event.kind);
+  if (is_told && !adds_nothing) point.event = event.kind;
   record_.events.push_back(std::move(event));
 }
 

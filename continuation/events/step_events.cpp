@@ -33,6 +33,7 @@ std::optional<EventPlace> earliest(const TraceTools& tools, const std::vector<in
     const auto rate = [&](const PathPoint& p) { return apply(target.quantity->gradient(p.state), p.tangent); };
     const double v0 = excess(target, segment.from().state), v1 = excess(target, segment.to().state);
     const double noise = excess_noise(target, v0, v1);
+    if (std::abs(v0) <= noise && std::abs(v1) <= noise) continue;  // it stays at the value
     // A step may end on the value to the last digit but one.
     if (std::abs(v1) <= noise && std::abs(v0) > noise)
       consider(EventPlace::What::target_value, i, 1.0);

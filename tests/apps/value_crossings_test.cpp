@@ -26,6 +26,14 @@ std::string truss(const std::string& path) {
   return deck::replaced(test::example("truss"), "step = 5.0", path + "\nstep = 5.0");
 }
 
+// Of the devices that come with the program.
+std::string device(const std::string& name) {
+  for (const ExampleDeck& deck : example_devices())
+    if (deck.name == name) return std::string(deck.text);
+  ADD_FAILURE() << "no device is called " << name;
+  return {};
+}
+
 double monitor(const RecordEvent& event) { return event.monitors.at(0); }
 
 std::string said_of(const std::string& deck) {
@@ -101,7 +109,7 @@ TEST(ValueCrossing, StandsInTheFiles) {
 }
 
 TEST(ValueCrossing, MayEndAPath) {
-  const TracedDeck run(truss("watch = { zero = [\"lambda\"] }\nstop.event = \"value-crossing\""));
+  const TracedDeck run(truss("watch = { zero = [\"lambda\"] }"), {"path.stop.event='value-crossing'"});
   EXPECT_NEAR(run.record().points.back().monitors[0], 0.5, 1e-12);
 }
 
@@ -116,14 +124,14 @@ TEST(ValueCrossing, IsRefusedWhereNothingIsPassed) {
   expect_in(said_of(truss("watch = { zero = [\"v\"] }")), "is neither lambda nor a monitor");
   expect_in(said_of(truss("watch = { zeros = [\"w\"] }")), "did you mean zero?");
   expect_in(said_of(truss("watch = { value = { w = \"a\" } }")), "path.watch.value.w");
-  expect_in(said_of(truss("stop.event = \"value-crossing\"")), "add watch = { zero = [\"MONITOR\"] }");
+  expect_in(said_of(deck::replaced(test::example("truss"), "[path.stop]", "[path.stop]\nevent = \"value-crossing\"")),
+            "add watch = { zero = [\"MONITOR\"] }");
 }
 
 // The push of a snap-fit is zero all along the top of its catch. The nose comes to it where the rounding, of radius 0.3
 // between slopes of 1/2 and 0, ends: 0.3 tan(½ atan ½) to the right of the corner, which λ moves to the left.
 TEST(ValueCrossing, IsWhereAForceVanishesForGood) {
-  const std::string deck =
-      std::string(test::example("snap-fit")) + "\n[[monitor]]\nname = \"nose\"\nat = \"nose\"\ncomponent = \"x\"\n";
+  const std::string deck = device("snap-fit") + "\n[[monitor]]\nname = \"nose\"\nat = \"nose\"\ncomponent = \"x\"\n";
   for (const char* step : {"0.05", "0.2"}) {
     SCOPED_TRACE(step);
     const TracedDeck run(deck,
@@ -140,7 +148,7 @@ TEST(ValueCrossing, IsWhereAForceVanishesForGood) {
 
 // Before it touches a guidewire carries nothing but round-off, which passes no value.
 TEST(ValueCrossing, IsNotMadeByRoundOff) {
-  const TracedDeck run(test::example("guidewire"),
+  const TracedDeck run(device("guidewire"),
                        {"path.watch={zero=['push', 'tip']}", "path.jumps=false", "path.stop.lambda=[-1.0, 40.0]"});
   EXPECT_TRUE(events_of(run, EventKind::value_crossing).empty());
   expect_confirmed(run);
@@ -165,6 +173,7 @@ profile = {{ type = "flat", z = -0.005 }}
 motion = {{ z = -0.01 }}
 [path]
 step = 0.05
+output_at = {{ lambda = [0.05, 0.1, 0.15, 0.2] }}
 stop = {{ lambda = [-1.0, 20.0]{} }}
 )toml",
                      points, stop);
