@@ -121,21 +121,21 @@ bool output_at_key(Keys& keys, const Key& output_at, std::vector<OutputValues>& 
 // Monitors that turn, or a table that has values to pass as well.
 void watch_key(Keys& keys, Path& path) {
   const Key watch = optional("watch", "none");
-  const char* turn = "monitors whose turning points are events (`turning-point`)";
   const bool passes = !path.watch_zero.empty() || !path.watch_values.empty();
-  const bool is_table = keys.reads() ? keys.holds_table("watch") : passes;
-  if (!is_table) keys.names(watch, path.watch, Named::monitor, EmptyList::means_none, turn);
-  if (!is_table && !keys.lists()) return;
+  const bool is_table = keys.lists() || (keys.reads() ? keys.holds_table("watch") : passes);
+  if (!is_table) {
+    keys.names(watch, path.watch, Named::monitor, EmptyList::means_none, "");
+    return;
+  }
   keys.table(
       watch, Form::dotted,
       [&](Keys& of) {
-        of.names(optional("turning", "none"), path.watch, Named::monitor, EmptyList::means_none, turn);
-        of.names(optional("zero", "none"), path.watch_zero, Named::column, EmptyList::means_none,
-                 "λ or monitors whose zeros are events (`value-crossing`)");
-        output_at_key(of, optional("value", "none"), path.watch_values,
-                      "values of λ or of monitors that are events when they are passed: `{ lift = [0.5] }`");
+        of.names(optional("turning", "none"), path.watch, Named::monitor, EmptyList::means_none, "");
+        of.names(optional("zero", "none"), path.watch_zero, Named::column, EmptyList::means_none, "");
+        output_at_key(of, optional("value", "none"), path.watch_values, "");
       },
-      "or a table: `watch = { turning = [\"w\"], zero = [\"force\"], value = { w = [0.5] } }`");
+      "`turning`, or an array alone: monitors whose turning points are events (`turning-point`); `zero`: λ or monitors "
+      "whose zeros are (`value-crossing`); `value`: the same of other values, `{ lift = [0.5] }`");
 }
 
 void search_keys(Keys& keys, Path& path) {

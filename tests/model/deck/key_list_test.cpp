@@ -81,7 +81,7 @@ TEST(KeyList, IsWhatThePageOnDecksShows) {
         key.table.ends_with(".sine") || key.table.ends_with(".curve") || key.table.ends_with(".control") ||
         key.table.ends_with(".imperfection.#") || key.table.ends_with(".profile") || key.table.ends_with(".outline") ||
         key.table.ends_with(".stiffness") || key.table.ends_with(".motion") || key.table == "curve.event" ||
-        key.table.ends_with(".foundation") || key.table.ends_with(".law");
+        key.table.ends_with(".foundation") || key.table == "path.watch" || key.table.ends_with(".law");
     if (key.name == "*" || in_braces) continue;
     EXPECT_NE(page.find("<!-- keys of " + (key.table.empty() ? "deck" : key.table) + " -->"), std::string::npos)
         << "docs/reference/deck.md has no table of the keys of " << key.table;
