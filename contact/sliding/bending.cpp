@@ -146,7 +146,7 @@ HeldAxis held_axis_of(const SlidingSetting& setting, const SlidingState& at, con
   return {
       .touch = touch,
       .point = point,
-      .s = at.mesh.coordinate(touch.strand, touch.position, at.now.s),
+      .s = point ? at.s(*point) : at.mesh.coordinate(touch.strand, touch.position, at.now.s),
       .position = axis.position,
       .angle = axis.angle,
       .travel = travel(*setting.obstacles[touch.obstacle].surface, face(touch.offset, axis), axis.angle, at.now.lambda),
