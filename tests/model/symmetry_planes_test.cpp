@@ -131,7 +131,6 @@ std::vector<Problem> problems() {
        0.0,
        1.0,
        {closes, splits}},
-      {"clamped column", elastica, 0.0, 0.0, ceiling, clamped, thrust, towards, 0.0, 12.0, {closes, spreads}, singular},
       {"pinned column", elastica, 0.0, 0.0, ceiling, pinned, thrust, towards, 0.0, 6.0, {closes, spreads}},
       {"zone pulled off by its middle",
        elastica,
@@ -166,17 +165,6 @@ std::vector<Problem> problems() {
        0.0,
        1.5,
        {merge}},
-      {"zone arches off as uplift comes",
-       elastica,
-       1.5,
-       11.5,
-       flat,
-       "\"rotation\"",
-       constant(moved(-10.2)),
-       constant(along(-0.01)) + along(0.03),
-       0.0,
-       1.5,
-       {splits}},
       {"flat zone of a pinned column buckles",
        elastica,
        0.1,
@@ -223,7 +211,7 @@ Changes changes_of(const Session& run) {
 // λ and rotations to 1e-9, lengths to 1e-9 of the strip's; the wall bears half.
 void expect_same_events(const Session& whole, const Session& half, double push_tolerance = 1e-9) {
   const Changes of_whole = changes_of(whole), of_half = changes_of(half);
-  EXPECT_EQ(half.record().branches.back().end->reason, EndReason::stop);
+  EXPECT_EQ(half.record().branches.back().end->reason, EndReason::stop) << half.record().branches.back().end->detail;
   ASSERT_EQ(of_whole.kinds, of_half.kinds);
   ASSERT_EQ(of_whole.events.size(), of_half.events.size());
   for (std::size_t i = 0; i < of_half.events.size(); ++i) {
