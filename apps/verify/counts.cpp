@@ -293,7 +293,23 @@ std::optional<CountRange> range_of_counts(const PointAtHand& at, const ZeroEigen
 }  // namespace
 
 std::optional<CountRange> unstable_range(const PointAtHand& at, const ZeroEigenvalue& zero) {
-  return range_of_counts(at, zero, Supports::held);
+  auto range = range_of_counts(at, zero, Supports::held);
+  const double sure = gap_left * at.scales.length;  // places along a wall
+  const auto bends_anew = [&](const Touch& touch) {
+    return touch.closed && std::any_of(at.walls.begin(), at.walls.end(), [&](const PlainWall& wall) {
+             return wall.deck().name == touch.label.wall && wall.bends_anew(touch.place, sure);
+           });
+  };
+  if (std::none_of(at.touches.all.begin(), at.touches.all.end(), bends_anew)) return range;
+  for (const double along : {-sure, sure}) {
+    PointAtHand beside = at;
+    for (PlainWall& wall : beside.walls) wall = wall.curved_as_beside(along);
+    beside.touches = touches(at.model, beside.walls, at.point.state);
+    const auto other = range_of_counts(beside, zero, Supports::held);
+    if (!range || !other) return std::nullopt;
+    range = {.least = std::min(range->least, other->least), .most = std::max(range->most, other->most)};
+  }
+  return range;
 }
 
 std::optional<CountRange> unstable_load_control_range(const PointAtHand& at, const ZeroEigenvalue& zero) {

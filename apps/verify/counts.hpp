@@ -25,7 +25,8 @@ struct CountRange {
 
 /// By two factorizations of what is left of the stiffness where closed contacts stay closed, shifted by what is as good
 /// as zero in both senses. Where that depends on the eigenvalues themselves, or a factorization is not accurate, by
-/// dense eigenvalues. Empty of more unknowns than these are computed for.
+/// dense eigenvalues. Where a contact lies as near as places are sure to where its wall's curvature jumps, of either
+/// curvature. Empty of more unknowns than dense eigenvalues are computed for.
 std::optional<CountRange> unstable_range(const PointAtHand& at, const ZeroEigenvalue& zero);
 
 /// The same where the forces of the supports that λ moves are dead loads, and λ one more unknown. Empty, too, where λ

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "apps/verify/plain_knot.hpp"
 #include "core/unit_tangent.hpp"
@@ -117,9 +118,17 @@ double PlainWall::slope_angle(const Vec2& point) const {
 }
 
 double PlainWall::curvature(const Vec2& point) const {
-  if (outline_) return outline_->nearest(at_rest(point)).curvature;
+  if (outline_) {
+    const Vec2 seen = at_rest(point);
+    return outline_->nearest(seen + beside_ * unit_tangent(outline_->nearest(seen).angle)).curvature;
+  }
   const Surface here = surface(at_rest(point).x());
   return here.second / std::pow(1.0 + here.slope * here.slope, 1.5);
+}
+
+bool PlainWall::bends_anew(const Vec2& point, double within) const {
+  const bool has_arcs = outline_ && std::holds_alternative<deck::PolylineOutline>(*wall_.outline);
+  return has_arcs && curved_as_beside(within).curvature(point) != curved_as_beside(-within).curvature(point);
 }
 
 double PlainWall::gap(const Vec2& point) const {

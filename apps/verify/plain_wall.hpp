@@ -24,6 +24,16 @@ class PlainWall {
     return moved;
   }
 
+  /// The same wall, curved everywhere as it is so far along it.
+  PlainWall curved_as_beside(double along) const {
+    PlainWall other = *this;
+    other.beside_ = along;
+    return other;
+  }
+
+  /// Whether the curvature jumps within a distance along the wall: at the ends of a corner's arc it does.
+  bool bends_anew(const Vec2& point, double within) const;
+
   const deck::Wall& deck() const { return wall_; }
 
   bool has_outline() const { return outline_ != nullptr; }
@@ -90,6 +100,7 @@ class PlainWall {
 
   deck::Wall wall_;
   double progress_ = 0.0;         // of its motion
+  double beside_ = 0.0;           // by which curvatures are those of farther along
   std::vector<double> second_{};  // derivatives of a spline at its knots
   std::shared_ptr<const PlainOutline> outline_{};
 };

@@ -34,7 +34,11 @@ Vector roundoff(const PointAtHand& at) {
   return 16.0 * epsilon * at.point.state.x.head(structure_unknowns(at.model, at.point.state)).cwiseAbs();
 }
 
-// Where a position, an angle or a change of thickness may still move: the metric's mean over the nodes.
+double smallest_force(const PointAtHand& at) { return 1e-11 * at.scales.force; }
+
+}  // namespace
+
+// A position, an angle or a change of thickness may still move: the metric's mean over the nodes.
 Vector uncertainty(const PointAtHand& at) {
   const State& state = at.point.state;
   Vector off = roundoff(at);
@@ -44,9 +48,13 @@ Vector uncertainty(const PointAtHand& at) {
   return off;
 }
 
-double smallest_force(const PointAtHand& at) { return 1e-11 * at.scales.force; }
-
-}  // namespace
+Vector made_by(const PointAtHand& at, std::size_t potential, const Vector& off) {
+  const std::vector<Index>& unknowns = at.potentials[potential].unknowns;
+  Vector here = Vector::Zero(static_cast<Index>(unknowns.size()));
+  for (std::size_t i = 0; i < unknowns.size(); ++i)
+    if (unknowns[i] >= 0) here[static_cast<Index>(i)] = off[unknowns[i]];
+  return at.stiffness[potential].cwiseAbs() * here;
+}
 
 bool is_well_formed(const Model& model, const State& state) {
   return model.system().size(state.active_set) == state.x.size() && state.x.allFinite() && std::isfinite(state.lambda);
@@ -64,7 +72,7 @@ PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vec
 
 void check_contacts(const PointAtHand& at, Findings& findings, bool waits) {
   constexpr double entered_in_change = 1e-6;  // of the length
-  const double length = 1e-10 * at.scales.length, force = smallest_force(at);
+  const double length = gap_left * at.scales.length, force = smallest_force(at);
   for (const Touch& touch : at.touches.all) {
     const double gap = touch.gap.value();
     if (touch.closed) {
@@ -118,14 +126,8 @@ Balance balance(const PointAtHand& at) {
   for (std::size_t e = 0; e < at.potentials.size(); ++e) {
     const Potential& potential = at.potentials[e];
     add(potential.unknowns, forces(potential));
-    const auto of_stiffness = [&](const Vector& by) {
-      Vector here = Vector::Zero(potential.at.size());
-      for (std::size_t i = 0; i < potential.unknowns.size(); ++i)
-        if (potential.unknowns[i] >= 0) here[static_cast<Index>(i)] = by[potential.unknowns[i]];
-      return Vector(at.stiffness[e].cwiseAbs() * here);
-    };
-    add_to(sum.allowed, potential.unknowns, of_stiffness(off));
-    add_to(sum.rounded, potential.unknowns, of_stiffness(digits));
+    add_to(sum.allowed, potential.unknowns, made_by(at, e, off));
+    add_to(sum.rounded, potential.unknowns, made_by(at, e, digits));
   }
   for (const Touch& touch : at.touches.all)
     if (touch.closed) add(touch.gap.unknowns, -wall_force(touch) * touch.gap.gradient());
@@ -153,8 +155,12 @@ double pull_between_nodes(const std::vector<Touch>& touches, std::size_t node) {
 
 // What is out of balance along the wall's normal where a contact is: its force is wrong by that.
 void check_contact_forces(const PointAtHand& at, const Balance& balance, Findings& findings) {
+  const bool slides = at.model.sliding() != nullptr;
+  const std::vector<double> ringing = slides ? knot_ringing(at.model, at.walls, at.point.state) : std::vector<double>();
+  auto of_node = ringing.begin();
   for (std::size_t number = 0; number < at.touches.all.size(); ++number) {
     const Touch& touch = at.touches.all[number];
+    const double rings = touch.listed ? 0.0 : *of_node++;
     if (!touch.closed) continue;
     const Vector normal = touch.gap.gradient();
     double left = 0.0, square = 0.0, bound = 0.0, rounded = 0.0;
@@ -170,7 +176,7 @@ void check_contact_forces(const PointAtHand& at, const Balance& balance, Finding
     // Nodes inside a part are held by differences of what its elements bend; where nothing else presses it, by nothing.
     if (!touch.listed)
       findings.compare("contact forces push", -touch.force,
-                       1e4 * smallest_force(at) + rounded / square + pull_between_nodes(at.touches.all, number),
+                       1e4 * smallest_force(at) + rounded / square + pull_between_nodes(at.touches.all, number) + rings,
                        named(touch.label));
   }
 }
@@ -195,8 +201,29 @@ void check_equilibrium(const PointAtHand& at, Findings& findings) {
   check(true);
 }
 
+namespace {
+
+// What energies of laws are differences of.
+double energy_of_laws(const Model& model) {
+  double sum = 0.0;
+  for (const deck::Spring& spring : model.deck().springs)
+    std::visit(
+        [&](const auto& kind) {
+          if (!kind.law) return;
+          double along = 1.0;
+          if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, deck::Foundation>)
+            for (const MemberMesh& mesh : model.structure().members())
+              if (mesh.name == kind.member) along = mesh.length;
+          sum += along * greatest_energy(*kind.law);
+        },
+        spring.kind);
+  return sum;
+}
+
+}  // namespace
+
 Energy energy(const PointAtHand& at) {
-  Energy sum;
+  Energy sum{.magnitude = energy_of_laws(at.model)};
   const auto add = [&](double part) {
     sum.value += part;
     sum.magnitude += std::abs(part);

@@ -15,6 +15,9 @@ struct Scales {
   double force = 1.0;   ///< of contact forces
 };
 
+/// By how much closed contacts may be off their walls, of the structure's length.
+constexpr double gap_left = 1e-10;
+
 /// A point of the record with what is known of it.
 struct PointAtHand {
   const Model& model;
@@ -39,6 +42,13 @@ void check_contacts(const PointAtHand& at, Findings& findings, bool waits = fals
 
 /// ∂Π/∂u − Σ p ∂g/∂u = 0, and the contact forces that this leaves at each node.
 void check_equilibrium(const PointAtHand& at, Findings& findings);
+
+/// What the unknowns of the structure may be off by: the digits that they are stored with, and the distance from the
+/// equilibrium that the corrector may leave.
+Vector uncertainty(const PointAtHand& at);
+
+/// The sizes of the forces that these make of one potential, by its unknowns.
+Vector made_by(const PointAtHand& at, std::size_t potential, const Vector& off);
 
 /// The total potential at the state.
 struct Energy {

@@ -66,6 +66,18 @@ Dof kind_of(std::size_t local, std::size_t stride) {
   return kinds[local % stride];
 }
 
+// The narrowest piece of the laws of foundations along a member, over which their forces bend; ∞ without one.
+double narrowest_piece(const deck::Deck& deck, const std::string& member) {
+  double narrowest = infinity;
+  for (const deck::Spring& spring : deck.springs) {
+    const auto* foundation = std::get_if<deck::Foundation>(&spring.kind);
+    if (foundation == nullptr || foundation->member != member || !foundation->law) continue;
+    const std::vector<double>& u = foundation->law->displacement;
+    for (std::size_t i = 1; i < u.size(); ++i) narrowest = std::min(narrowest, u[i] - u[i - 1]);
+  }
+  return narrowest;
+}
+
 std::size_t unknowns_a_node(const MemberMesh& mesh) {
   if (!mesh.thickness.empty()) return 5;
   return mesh.rotations.front() ? 3 : 2;
@@ -123,8 +135,15 @@ struct LoadedElement {
   }
 };
 
-Potential fixed_potential(const Structure& structure, Index e, const State& state, std::size_t stride, double length,
-                          const Rates& rates) {
+// Differences are taken over a part of the length over which an element or its foundation's law bends.
+struct ElementSize {
+  double length = 0.0, bends_over = infinity;
+
+  double part() const { return std::min(1.0, bends_over / length); }
+};
+
+Potential fixed_potential(const Structure& structure, Index e, const State& state, std::size_t stride,
+                          const ElementSize& size, const Rates& rates) {
   const auto dofs = structure.element_dofs(e);
   const auto n = static_cast<Index>(dofs.size());
   LoadedElement loaded{.element = &structure.element(e), .loads = {}, .lambda = state.lambda};
@@ -132,26 +151,31 @@ Potential fixed_potential(const Structure& structure, Index e, const State& stat
     loaded.loads.push_back(structure.element_loads()[i].potential.get());
   Potential potential{.at = Vector(n), .steps = Vector(n), .rates = Vector::Zero(n)};
   for (std::size_t i = 0; i < dofs.size(); ++i) {
-    potential.rates[static_cast<Index>(i)] = rate_of(rates, dofs[i]);
+    const auto local = static_cast<Index>(i);
+    potential.rates[local] = rate_of(rates, dofs[i]);
     potential.unknowns.push_back(structure.unknown(dofs[i]).value_or(-1));
-    potential.at[static_cast<Index>(i)] = structure.value(state, dofs[i]);
-    potential.steps[static_cast<Index>(i)] = step_of(kind_of(i, stride), length);
+    potential.at[local] = structure.value(state, dofs[i]);
+    potential.steps[local] = size.part() * step_of(kind_of(i, stride), size.length);
   }
   potential.energy = [loaded](const Vector& u) { return loaded.energy(u); };
   potential.gradient = [loaded](const Vector& u) { return loaded.gradient(u); };
-  limit_steps(length, stride, potential);
+  limit_steps(size.length, stride, potential);
   return potential;
 }
 
-std::vector<Potential> fixed_potentials(const Structure& structure, const State& state) {
+std::vector<Potential> fixed_potentials(const Model& model, const State& state) {
+  const Structure& structure = model.structure();
   std::vector<Potential> all;
   const std::vector<double> lengths = element_lengths(structure);
   const Rates rates = rates_of_supports(structure);
-  for (const MemberMesh& mesh : structure.members())
+  for (const MemberMesh& mesh : structure.members()) {
+    const double bends_over = narrowest_piece(model.deck(), mesh.name);
     for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) {
+      const ElementSize size{.length = lengths[all.size()], .bends_over = bends_over};
       const auto e = static_cast<Index>(all.size());
-      all.push_back(fixed_potential(structure, e, state, unknowns_a_node(mesh), lengths[all.size()], rates));
+      all.push_back(fixed_potential(structure, e, state, unknowns_a_node(mesh), size, rates));
     }
+  }
   return all;
 }
 
@@ -165,17 +189,19 @@ struct SlidingElements {
   MovedUnknowns x;
 };
 
-Potential sliding_potential(const std::shared_ptr<const SlidingElements>& of, Index strand, Index position) {
+Potential sliding_potential(const std::shared_ptr<const SlidingElements>& of, Index strand, Index position,
+                            double bends_over) {
   const auto& [mesh, s, lambda, x] = *of;
   const NodeUnknowns first = mesh.node_unknowns(strand, position), second = mesh.node_unknowns(strand, position + 1);
   const double length = mesh.coordinate(strand, position + 1, s) - mesh.coordinate(strand, position, s);
+  const double part = ElementSize{.length = length, .bends_over = bends_over}.part();
   Potential potential{.at = Vector::Zero(6), .steps = Vector(6)};
   for (const NodeUnknowns& node : {first, second})
     for (const Index unknown : node) potential.unknowns.push_back(unknown);
   for (std::size_t i = 0; i < 6; ++i) {
     const Index unknown = potential.unknowns[i];
     if (unknown >= 0) potential.at[static_cast<Index>(i)] = x.value(unknown);
-    potential.steps[static_cast<Index>(i)] = step_of(kind_of(i, 3), length);
+    potential.steps[static_cast<Index>(i)] = part * step_of(kind_of(i, 3), length);
   }
   potential.energy = [of, strand, position, unknowns = potential.unknowns](const Vector& u) {
     return of->x.with(unknowns, u, [&](const Vector& moved) {
@@ -202,9 +228,14 @@ std::vector<Potential> sliding_potentials(const Model& model, const State& state
                       .s = coordinates(state),
                       .lambda = state.lambda,
                       .x = MovedUnknowns(Vector(state.x.head(mesh.unknowns())))});
-  for (Index strand = 0; strand < model.sliding_structure()->strands(); ++strand)
-    for (Index position = 0; position + 1 < mesh.nodes(strand); ++position)
-      all.push_back(sliding_potential(shared, strand, position));
+  const SlidingStructure& body = *model.sliding_structure();
+  for (Index strand = 0; strand < body.strands(); ++strand)
+    for (Index position = 0; position + 1 < mesh.nodes(strand); ++position) {
+      const double middle =
+          0.5 * (mesh.coordinate(strand, position, shared->s) + mesh.coordinate(strand, position + 1, shared->s));
+      const std::string member = body.label({.strand = strand, .s = middle}).first;
+      all.push_back(sliding_potential(shared, strand, position, narrowest_piece(model.deck(), member)));
+    }
   return all;
 }
 
@@ -458,11 +489,17 @@ std::pair<double, double> table_force_and_slope(const deck::TableLaw& law, doubl
 
 double table_force(const deck::TableLaw& law, double stretch) { return table_force_and_slope(law, stretch).first; }
 
+double greatest_energy(const deck::TableLaw& law) {
+  double most = 0.0;
+  for (const double u : law.displacement) most = std::max(most, std::abs(table_energy(law, u)));
+  return most;
+}
+
 double table_slope(const deck::TableLaw& law, double stretch) { return table_force_and_slope(law, stretch).second; }
 
 std::vector<Potential> potentials(const Model& model, const State& state) {
   std::vector<Potential> all =
-      model.sliding() != nullptr ? sliding_potentials(model, state) : fixed_potentials(model.structure(), state);
+      model.sliding() != nullptr ? sliding_potentials(model, state) : fixed_potentials(model, state);
   add_springs(model, state, all);
   add_pressed_ends(model, state, all);
   return all;

@@ -31,6 +31,9 @@ std::optional<double> spring_force(const Model& model, const State& state, const
 /// The force of a law at a stretch, by formulas of its own.
 double table_force(const deck::TableLaw& law, double stretch);
 
+/// The greatest energy at a point of its table: energies between are differences of such.
+double greatest_energy(const deck::TableLaw& law);
+
 /// Its slope there.
 double table_slope(const deck::TableLaw& law, double stretch);
 

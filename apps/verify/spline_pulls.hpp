@@ -18,4 +18,8 @@ struct SplinePull {
 /// Those of a state, of walls that are profiles.
 std::vector<SplinePull> spline_pulls(const Model& model, const std::vector<PlainWall>& walls, const State& state);
 
+/// By how much each node inside a pressed part, in their order, may pull beside points of splines: what such a point
+/// asks for, EI |J|, rings on both sides of its element, halved at least from node to node as in splines [force].
+std::vector<double> knot_ringing(const Model& model, const std::vector<PlainWall>& walls, const State& state);
+
 }  // namespace arcwall::verify

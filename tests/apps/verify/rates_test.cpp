@@ -100,4 +100,28 @@ motion = { x = -1.0 }
 )toml"));
 }
 
+// The push is greatest where the tip passes from the arc to the flat, where λ turns, too. In the last digits of its
+// place it is on either, of which one holds it and the other does not.
+TEST(VerifyRates, AndCountsAtTheEndOfAnArcHold) {
+  test::expect_verified(TracedDeck(R"toml(
+title = "A strip's end that is bent over a rounded edge"
+material.m = { E = 900.0 }
+section.s = { shape = "rectangle", width = 1.0, height = 1.5 }
+point = { root = [0.0, 0.0], rim = [20.0, 0.0], bead = [20.0, -2.0] }
+support.root = ["x", "z", "rotation"]
+member.skirt = { from = "root", to = "rim", theory = "elastica", material = "m", section = "s", elements = 20 }
+member.bead = { from = "rim", to = "bead", theory = "elastica", material = "m", section = "s", elements = 2 }
+spring = [{ on = "skirt", foundation = { z = 3.375 } }]
+path = { step = 0.1, watch = ["push"], stop = { lambda = [-1.0, 6.0], event = "limit-point" } }
+monitor = [{ name = "push", wall = "neck", component = "force-x", sign = -1 }]
+[[wall]]
+name = "neck"
+members = ["bead"]
+contact_surface = "axis"
+outline = { type = "polyline", x = [20.5, 22.231, 23.231, 23.808], z = [-2.2, -1.2, -1.2, -2.2] }
+corner_radius = 0.2
+motion = { x = -1.0 }
+)toml"));
+}
+
 }  // namespace arcwall::verify::rates_test
