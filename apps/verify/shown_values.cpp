@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "apps/verify/section_point.hpp"
 
@@ -105,7 +106,90 @@ std::size_t index_of_member(const Model& model, const std::string& name) {
   return static_cast<std::size_t>(deck::find(members, name) - members.data());
 }
 
+// --- section forces -------------------------------------------------------------------------------------------------
+
+// What the part behind a section exerts on the part before it [force].
+Vec2 section_force(const ShapePoint& at) {
+  const Vec2 along(std::cos(at.angle), std::sin(at.angle));
+  return at.axial_force * along + at.shear_force * Vec2(-along.y(), along.x());
+}
+
+// Loads and springs all along a member.
+bool is_loaded_along(const deck::Deck& deck, const std::string& member) {
+  const bool by_load = std::any_of(deck.loads.begin(), deck.loads.end(), [&](const deck::Load& load) {
+    const auto* along = std::get_if<deck::MemberLoad>(&load.action);
+    const auto* pressure = std::get_if<deck::Pressure>(&load.action);
+    return (along != nullptr && along->member == member) || (pressure != nullptr && pressure->member == member);
+  });
+  return by_load || std::any_of(deck.springs.begin(), deck.springs.end(), [&](const deck::Spring& spring) {
+           const auto* foundation = std::get_if<deck::Foundation>(&spring.kind);
+           return foundation != nullptr && foundation->member == member;
+         });
+}
+
+bool is_place(const deck::Place& a, const deck::Place& b) { return a.name == b.name && a.fraction == b.fraction; }
+
+bool has_spring_at(const deck::Deck& deck, const deck::Place& place) {
+  return std::any_of(deck.springs.begin(), deck.springs.end(), [&](const deck::Spring& spring) {
+    const auto* to_ground = std::get_if<deck::GroundSpring>(&spring.kind);
+    return to_ground != nullptr && is_place(to_ground->at, place);
+  });
+}
+
+// What the forces on both sides of a node may be off by along x and z, the stiffest elements beside it.
+Vec2 uncertainty_of_jump(const PointAtHand& at) {
+  const Vector off = uncertainty(at);
+  Vec2 most = Vec2::Zero();
+  for (std::size_t e = 0; e < at.potentials.size(); ++e)
+    if (at.potentials[e].at.size() >= 4) most = most.cwiseMax(made_by(at, e, off).head<2>());
+  return 2.0 * most;
+}
+
+// A contact between two places of a member, or on both sides of them with one wall, which may be one zone.
+bool may_touch_between(const Touches& touches, const std::string& member, double from, double to) {
+  std::set<std::string> before, behind;
+  for (const Touch& touch : touches.all) {
+    if (!touch.closed || touch.label.member != member) continue;
+    if (touch.label.fraction >= from && touch.label.fraction <= to) return true;
+    (touch.label.fraction < from ? before : behind).insert(touch.label.wall);
+  }
+  return std::any_of(before.begin(), before.end(), [&](const std::string& wall) { return behind.contains(wall); });
+}
+
 }  // namespace
+
+void check_point_loads(const PointAtHand& at, Findings& findings) {
+  constexpr double same_place = 1e-9, same = 1e-7;  // of the largest force of the member
+  const Model& model = at.model;
+  const deck::Deck& deck = model.deck();
+  const Vec2 may_be_off = uncertainty_of_jump(at);
+  for (const deck::Load& load : deck.loads) {
+    const auto* point_load = std::get_if<deck::PointLoad>(&load.action);
+    if (point_load == nullptr || !point_load->at.fraction) continue;
+    const deck::Place& place = point_load->at;
+    const double fraction = *place.fraction;
+    if (is_loaded_along(deck, place.name) || has_spring_at(deck, place)) continue;
+    Vec2 sum = Vec2::Zero();
+    for (const deck::Load& other : deck.loads)
+      if (const auto* there = std::get_if<deck::PointLoad>(&other.action);
+          there != nullptr && is_place(there->at, place))
+        sum += (other.constant ? 1.0 : at.point.lambda) * Vec2(there->force.x, there->force.z);
+    const std::vector<ShapePoint> shape = model.body().shape(index_of_member(model, place.name), at.point.state);
+    const auto behind = std::find_if(shape.begin(), shape.end(),
+                                     [&](const ShapePoint& one) { return one.fraction > fraction + same_place; });
+    const auto before = std::find_if(shape.rbegin(), shape.rend(),
+                                     [&](const ShapePoint& one) { return one.fraction < fraction - same_place; });
+    if (behind == shape.end() || before == shape.rend()) continue;
+    if (may_touch_between(at.touches, place.name, before->fraction - same_place, behind->fraction + same_place))
+      continue;
+    double most = sum.norm();
+    for (const ShapePoint& one : shape) most = std::max(most, section_force(one).norm());
+    const Vec2 off = section_force(*before) - section_force(*behind) - sum;
+    for (const Index i : {0, 1})
+      findings.compare("section forces jump by point loads", std::abs(off[i]), same * most + may_be_off[i],
+                       (i == 0 ? "x at " : "z at ") + to_text(place));
+  }
+}
 
 std::optional<double> own_value(const PointAtHand& at, const deck::Monitor& monitor) {
   if (monitor.component == deck::Component::gap) return gap(at, monitor);

@@ -24,6 +24,10 @@ struct OuterFibres {
 };
 std::vector<OuterFibres> outer_fibres(const deck::Deck& deck, const deck::Monitor& monitor);
 
+/// The section force jumps by each point load inside a member, between the two shown places beside it. Left out:
+/// members with loads or springs all along, springs at the place, and contact that may lie beside it.
+void check_point_loads(const PointAtHand& at, Findings& findings);
+
 /// No section that a picture of the point shows carries more than the greatest moment, stress or pressure along its
 /// member.
 void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double shown, double roundoff,

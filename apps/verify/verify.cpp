@@ -190,6 +190,7 @@ class Verifier {
     if (!model_.in_increments()) {
       check_contacts(at, findings, waits_for_stretch(number));
       check_equilibrium(at, findings);
+      check_point_loads(at, findings);
       expected.energy = energy(at);
       const ZeroEigenvalue zero = zero_eigenvalue(model, record_, point);
       expected.unstable = unstable_range(at, zero);
