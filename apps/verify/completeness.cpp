@@ -84,6 +84,17 @@ void check_counts(const Branch& branch, Findings& findings) {
   }
 }
 
+// A branch that ends where another goes on does so at a branch point.
+void check_switch(const Branch& branch, const Record& record, Findings& findings) {
+  const auto& end = record.branches[static_cast<std::size_t>(branch.id)].end;
+  if (!end || end->reason != EndReason::switched_branch) return;
+  const Index last = branch.points.back().step;
+  findings.at("events.json", branch.id, last);
+  findings.require(complete,
+                   branch.has_event(last, last, [](const ListedEvent& event) { return event.kind == "branch-point"; }),
+                   "the branch continues as another without a branch-point");
+}
+
 // --- contacts -------------------------------------------------------------------------------------------------------
 
 bool is_contact_event(const ListedEvent& event) {
@@ -314,6 +325,7 @@ void check_completeness(const std::vector<ListedEvent>& events, const Record& re
   for (const Branch& branch : branches_of(record, events)) {
     const Model& here = model.at_stage(record.stage_number(branch.id));
     if (model.deck().path.events != EventSearch::none) check_counts(branch, findings);
+    check_switch(branch, record, findings);
     check_contact_changes(branch, model.sliding() != nullptr, findings);
     check_turning_points(branch, record, here, findings);
     if (!here.in_increments()) check_passed_values(branch, record, here, findings);
