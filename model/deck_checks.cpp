@@ -8,6 +8,7 @@
 
 #include "core/text.hpp"
 #include "model/build_contact.hpp"
+#include "model/deck/key_list.hpp"
 
 namespace arcwall {
 
@@ -144,6 +145,23 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
   return possible;
 }
 
+namespace {
+
+std::string law_of(const deck::Spring& spring) {
+  return "the law of " + (spring.name.empty() ? "a spring" : "spring \"" + spring.name + "\"");
+}
+
+}  // namespace
+
+std::string flat_law(const deck::Spring& spring, const deck::Units& units) {
+  const auto* foundation = std::get_if<deck::Foundation>(&spring.kind);
+  if (foundation == nullptr || !foundation->law || foundation->law->law().at(0.0).stiffness != 0.0) return {};
+  return fmt::format(
+      "{} has slope 0 at displacement 0, and no support holds what it holds: the stiffness is singular at the start, "
+      "and no step may leave it; give the law a small force on its side without one, as 0.001 {} at its last point",
+      law_of(spring), unit_text(deck::unit::line_load, units));
+}
+
 std::string smoothed_law(const deck::Spring& spring) {
   constexpr int parts = 32;  // of an interval, between which the difference is read off
   const auto* foundation = std::get_if<deck::Foundation>(&spring.kind);
@@ -162,9 +180,9 @@ std::string smoothed_law(const deck::Spring& spring) {
       at = u;
     }
   return fmt::format(
-      "the law of {} is smooth between its points: at displacement {:.4g} it is {:.2g} % of its maximum force off a "
+      "{} is smooth between its points: at displacement {:.4g} it is {:.2g} % of its maximum force off a "
       "straight line; give points closer together, or confirm it with interpolation = \"smooth\"",
-      spring.name.empty() ? "a spring" : "spring \"" + spring.name + "\"", at, 100.0 * off / greatest);
+      law_of(spring), at, 100.0 * off / greatest);
 }
 
 }  // namespace arcwall

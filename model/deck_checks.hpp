@@ -47,4 +47,8 @@ std::string start_outside_bounds(const deck::Path& path);
 /// Says how far a law whose interpolation was not asked for is from straight pieces; empty where it was.
 std::string smoothed_law(const deck::Spring& spring);
 
+/// Says that the law of a foundation holds nothing at rest, in a deck whose supports leave rigid motions free; empty if
+/// it does.
+std::string flat_law(const deck::Spring& spring, const deck::Units& units);
+
 }  // namespace arcwall

@@ -132,8 +132,12 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
   for (const MonitorColumn& monitor : monitors_)
     if (!monitor.is_place) explore_.preference.push_back(monitor.raw);
   if (stage_ == 0)
-    for (const deck::Spring& spring : deck_->springs)
+    for (const deck::Spring& spring : deck_->springs) {
       if (std::string warning = smoothed_law(spring); !warning.empty()) warnings_.push_back(std::move(warning));
+      if (loose_holds_.empty()) continue;
+      if (std::string warning = flat_law(spring, deck_->units); !warning.empty())
+        warnings_.push_back(std::move(warning));
+    }
   const auto turns = [](const MemberMesh& mesh) { return mesh.rotations.front().has_value(); };
   if (is_unbounded(deck_->path))
     warnings_.push_back("no bound in [path.stop] ends the path: it continues to path.max_points = " +
