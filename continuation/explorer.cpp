@@ -160,7 +160,7 @@ void Explorer::begin_at(State found, int sense) {
 // Of the branch under way.
 std::unique_ptr<Tracer> Explorer::make_tracer(BranchStart start) const {
   TraceOptions options = trace_;
-  options.stay = options.stay || branches_[static_cast<std::size_t>(current_)].found;
+  options.stay = options.stay || here().found;
   return std::make_unique<Tracer>(system_, std::move(start), std::move(options), watched_);
 }
 
@@ -177,21 +177,19 @@ void Explorer::look_at(const Event& event) {
   if (is_known(system_, known_, point, metric)) return;
   known_.push_back({.state = point.state, .branch = current_});
   if (tracer_->end() && tracer_->end()->reason == EndReason::stop) return;
-  const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
-  const bool stays = here.found && options_.policy == BranchPolicy::most_stable;
-  if (stays || options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.mesh_artefact) return;
+  if (options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.mesh_artefact) return;
   if (point.ways.empty() && point.mode.dx.size() == 0) return;
-  if (options_.policy == BranchPolicy::all && here.depth >= options_.depth) return;
+  if (options_.policy == BranchPolicy::all && here().depth >= options_.depth) return;
   const bool mirror_ahead = point.ends_its_own_branch();
   if (!point.ways.empty() && !mirror_ahead) {
-    if (options_.policy == BranchPolicy::all)
+    if (takes_every_way())
       for (const BranchPoint::Way& way : point.ways)
         enqueue(event, start_along(system_, event, way, options_.distance), 1, false);
     return;  // the tracer has taken the one that `follow` wants
   }
   const bool ahead_is_stable = event.unstable_after == Index{0} && !mirror_ahead;
   const bool nothing_is_known = system_.leaves_stability_open(point.state.active_set);
-  if (options_.policy == BranchPolicy::most_stable && (ahead_is_stable || nothing_is_known)) return;
+  if (!takes_every_way() && (ahead_is_stable || nothing_is_known)) return;
 
   const std::vector<TriedWay> ways = tried_ways(system_, trace_, point, metric, options_.distance);
   if (!ways.empty())
@@ -226,7 +224,7 @@ void Explorer::look_behind(const Event& event, const Arc& arc) {
 
 // Who wants the stable way is told that none was found.
 void Explorer::stop_unstable() {
-  if (options_.policy == BranchPolicy::most_stable && !tracer_->end())
+  if (!takes_every_way() && !tracer_->end())
     tracer_->stop({.reason = EndReason::min_step,
                    .detail = "the path is unstable beyond a branch point, and switching to the other branch failed"});
 }
@@ -238,7 +236,7 @@ void Explorer::leave(const Event& event, const BranchPoint& point, const std::ve
   const bool mirror_ahead = point.ends_its_own_branch();
   const bool mirror_image = mirror_images(ways);
   const int preferred = preferred_sign(options_.preference, point, ways, metric);
-  if (options_.policy == BranchPolicy::all) {
+  if (takes_every_way()) {
     for (const TriedWay& way : ways)
       if (!mirror_image || way.sign == preferred) enqueue(event, start_along(event, way), way.sign, mirror_image);
     if (mirror_ahead)
@@ -259,12 +257,11 @@ void Explorer::leave(const Event& event, const BranchPoint& point, const std::ve
 }
 
 void Explorer::enqueue(const Event& event, BranchStart start, int sign, bool mirror_image) {
-  const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
   start.lambda_scale = lambda_scale_;
   queue_.push_back({.start = std::move(start),
                     .record = {.parent = current_,
                                .origin = event.branching,
-                               .depth = here.depth + 1,
+                               .depth = here().depth + 1,
                                .sign = sign,
                                .mirror_image = mirror_image}});
 }

@@ -54,8 +54,8 @@ class Explorer {
   /// Returns the next arc of the current branch, or the first of the next branch. Empty when all have ended.
   std::optional<Step> next();
 
-  /// Adds a disconnected branch from the equilibrium `found`; `sense` as in BranchStart. The policy is not applied on
-  /// it: bifurcating branches are ignored.
+  /// Adds a disconnected branch from the equilibrium `found`; `sense` as in BranchStart. It is followed to its end, and
+  /// unless the policy is `primary` all branches that bifurcate from it are traced under the policy.
   void begin_at(State found, int sense);
 
   const std::vector<BranchRecord>& branches() const { return branches_; }
@@ -97,6 +97,8 @@ class Explorer {
     }
   };
 
+  const BranchRecord& here() const { return branches_[static_cast<std::size_t>(current_)]; }
+  bool takes_every_way() const { return options_.policy == BranchPolicy::all || here().found; }
   std::unique_ptr<Tracer> make_tracer(BranchStart start) const;
   void look_at(const Event& event);
   void look_behind(const Event& event, const Arc& arc);

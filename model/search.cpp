@@ -324,8 +324,10 @@ std::optional<Search::Start> Search::next() {
 bool Search::may_begin(const Pending& next, RecordFound& found) const {
   if (next.start.sense < 0) {  // against the way in which a branch has begun there, but around a loop there is one way
     if (found.fate == FoundFate::on_branch || found.fate == FoundFate::beyond_stop) return false;
-    const auto& end = record_.branches.back().end;
-    if (found.fate == FoundFate::traced && end && end->reason == EndReason::closed_loop) return false;
+    if (found.fate == FoundFate::traced) {
+      const auto& end = record_.branches[static_cast<std::size_t>(found.branches.front())].end;
+      if (end && end->reason == EndReason::closed_loop) return false;
+    }
   } else if (is_beyond_stop(model_, next.start.state)) {
     found.fate = FoundFate::beyond_stop;
     return false;
@@ -339,11 +341,16 @@ bool Search::may_begin(const Pending& next, RecordFound& found) const {
   return false;
 }
 
+bool comes_of_search(const Record& record, const RecordBranch& branch) {
+  return branch.found ||
+         (branch.parent && comes_of_search(record, record.branches[static_cast<std::size_t>(*branch.parent)]));
+}
+
 std::optional<BranchEnd> end_of_found_branch(const Model& model, const Record& record) {
   constexpr double near = 0.1;  // of two steps that pass one state [path metric]
   constexpr Index fewest = 4;   // points of a loop
   const RecordBranch& branch = record.branches.back();
-  if (!branch.found) return std::nullopt;
+  if (!comes_of_search(record, branch)) return std::nullopt;
   if (!is_resolved(model, record.points.back().state))
     return BranchEnd{.reason = EndReason::not_modelled,
                      .detail = "an element bends too far there for this mesh; give the members more elements"};

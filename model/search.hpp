@@ -62,10 +62,13 @@ class Search {
   std::deque<Pending> pending_;
 };
 
-/// The end of a branch that was found, where its last step in the record has passed a state at the λ where it began
-/// that it, or another branch, has passed before: it has gone around a loop, or goes on along that one; or where its
-/// last point is one that the mesh is too coarse for. Empty elsewhere. Where contact slides, branches meet on different
-/// meshes, so that the tracer does not see it.
+/// Whether a branch was found, or bifurcates from one that was.
+bool comes_of_search(const Record& record, const RecordBranch& branch);
+
+/// The end of a branch that was found, or that bifurcates from one, where its last step in the record has passed a
+/// state at the λ where it began that it, or another branch, has passed before: it has gone around a loop, or goes on
+/// along that one; or where its last point is one that the mesh is too coarse for. Empty elsewhere. Where contact
+/// slides, branches meet on different meshes, so that the tracer does not see it.
 std::optional<BranchEnd> end_of_found_branch(const Model& model, const Record& record);
 
 /// The end of a branch whose last point lies behind two changes of contact between which nothing moves, and is a state

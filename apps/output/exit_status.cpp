@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "model/search.hpp"
+
 namespace arcwall {
 
 ExitStatus exit_status(EndReason reason) {
@@ -33,7 +35,7 @@ ExitStatus exit_status(EndReason reason) {
 }
 
 const RecordBranch& decisive_branch(const Record& record) {
-  const auto severity = [](const RecordBranch& branch) {
+  const auto severity = [&](const RecordBranch& branch) {
     switch (exit_status(branch.end->reason)) {
       case ExitStatus::interrupted:
         return 3;
@@ -42,7 +44,7 @@ const RecordBranch& decisive_branch(const Record& record) {
       case ExitStatus::success:
         return 0;
       case ExitStatus::ended_early:  // what was found beside the paths is more than was asked for
-        return branch.found ? 0 : 1;
+        return comes_of_search(record, branch) ? 0 : 1;
       case ExitStatus::internal_error:
       case ExitStatus::wrong_input:
       case ExitStatus::no_start:
@@ -60,7 +62,7 @@ const RecordBranch& decisive_branch(const Record& record) {
 std::vector<Index> found_that_ended_early(const Record& record) {
   std::vector<Index> branches;
   for (const RecordBranch& branch : record.branches)
-    if (branch.found && branch.end && exit_status(branch.end->reason) == ExitStatus::ended_early)
+    if (comes_of_search(record, branch) && branch.end && exit_status(branch.end->reason) == ExitStatus::ended_early)
       branches.push_back(branch.id);
   return branches;
 }

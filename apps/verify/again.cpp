@@ -8,6 +8,7 @@
 #include "core/text.hpp"
 #include "model/deck_family.hpp"
 #include "model/event_names.hpp"
+#include "model/search.hpp"
 
 namespace arcwall::verify {
 
@@ -56,7 +57,7 @@ bool is_known_beyond(EndReason reason) {
 // Without the ends that limits made, or the order of branches that were found.
 EventsOfBranch events_of_branch(const Record& record, Index id) {
   EventsOfBranch branch;
-  const bool found = id >= 0 && record.branches[static_cast<std::size_t>(id)].found;
+  const bool found = id >= 0 && comes_of_search(record, record.branches[static_cast<std::size_t>(id)]);
   for (const RecordEvent& event : record.events) {
     if (event.branch != id) continue;
     if (event.branch_end &&
@@ -133,7 +134,7 @@ class Comparer {
   static std::vector<Index> branches(const Record& record, bool found) {
     std::vector<Index> ids;
     for (const RecordBranch& branch : record.branches)
-      if (branch.found == found) ids.push_back(branch.id);
+      if (comes_of_search(record, branch) == found) ids.push_back(branch.id);
     return ids;
   }
 

@@ -187,6 +187,42 @@ TEST(Search, LeavesWhatIsBeyondTheStopsUntraced) {
   EXPECT_EQ(traced.record().branches.size(), 3u);
 }
 
+// Two bars of half-span 1 and rise 5 sway with P L³ = 2 z and x² + z² = 23, the place of the top from the feet. That
+// branch leaves the one through the state that is found, upside down, at z = −√23.
+TEST(Search, TracesWhatBifurcatesFromABranchThatIsFound) {
+  std::string deck = test::low_truss + R"toml([path]
+step = 0.01
+search = true
+search_at = [0.03]
+search_guesses = 1
+stop = { lambda = [-0.5, 0.06] }
+)toml";
+  const auto put = [&](const std::string& from, const std::string& to) {
+    deck.replace(deck.find(from), from.size(), to);
+  };
+  put("left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0]",
+      "left = [-1.0, 0.0], top = [0.0, 5.0], right = [1.0, 0.0]");
+  put("E = 1e4", "E = 1.0");
+  put("component = \"z\" }", "component = \"z\" }, { name = \"u\", at = \"top\", component = \"x\" }");
+  const TracedDeck traced(deck);
+  const Record& record = traced.record();
+  const auto child = std::find_if(record.branches.begin(), record.branches.end(),
+                                  [](const RecordBranch& branch) { return branch.parent.has_value(); });
+  ASSERT_NE(child, record.branches.end());
+  EXPECT_FALSE(child->found);
+  EXPECT_TRUE(record.branches[static_cast<std::size_t>(*child->parent)].found);
+  const double cube = std::pow(26.0, 1.5);
+  EXPECT_NEAR(record.events[static_cast<std::size_t>(*child->origin)].lambda, -2.0 * std::sqrt(23.0) / cube, 1e-9);
+  EXPECT_GT(child->points, 3);
+  for (const RecordPoint& point : record.points) {
+    if (point.branch != child->id) continue;
+    const double z = 5.0 + point.monitors.at(0), x = point.monitors.at(1);
+    EXPECT_NEAR(point.lambda * cube, 2.0 * z, 1e-8);
+    EXPECT_NEAR(x * x + z * z, 23.0, 1e-8);
+  }
+  test::expect_verified(traced);
+}
+
 // Where the whole path is traced nothing is left to be found.
 TEST(Search, FindsNothingWhereThePathPassesAll) {
   std::string whole = truss;
