@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "model/checkpoint/checkpoint_file.hpp"
+#include "model/deck/given_points.hpp"
 #include "model/deck/reader.hpp"
-#include "model/deck/toml_source.hpp"
 #include "model/jumps.hpp"
 #include "model/record_parts.hpp"
 #include "model/recorder.hpp"
@@ -94,7 +94,7 @@ Session& Session::operator=(Session&& other) noexcept = default;
 Session::~Session() = default;
 
 Session Session::open(const std::string& file, std::vector<std::string> assignments) {
-  return Session({.deck = file, .deck_text = deck::read_text_file(file), .assignments = std::move(assignments)});
+  return Session({.deck = file, .deck_text = deck::read_deck_file(file), .assignments = std::move(assignments)});
 }
 
 bool Session::begin() {

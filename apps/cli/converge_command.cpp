@@ -12,8 +12,8 @@
 #include "apps/output/files.hpp"
 #include "apps/output/result_json.hpp"
 #include "core/error.hpp"
+#include "model/deck/given_points.hpp"
 #include "model/deck/reader.hpp"
-#include "model/deck/toml_source.hpp"
 
 namespace arcwall {
 
@@ -51,7 +51,7 @@ ExitStatus status_of(const Convergence& study) {
 ExitStatus converge(const Options& options) {
   const std::string& file = options.words().front();
   const std::vector<std::string> assignments = options.texts("set");
-  const std::string text = deck::read_text_file(file);
+  const std::string text = deck::read_deck_file(file);
   const deck::Deck deck = deck::read_deck_text(text, file, assignments);
   const InterruptGuard interrupts;
   MeshStudy study{.levels = count_of(options, "levels", 3, 2, most_levels),

@@ -9,8 +9,8 @@
 #include "apps/output/curve_files.hpp"
 #include "apps/output/events_json.hpp"
 #include "core/error.hpp"
+#include "model/deck/given_points.hpp"
 #include "model/deck/reader.hpp"
-#include "model/deck/toml_source.hpp"
 
 namespace arcwall {
 
@@ -54,7 +54,7 @@ ExitStatus curve(const Options& options) {
                     .assignments = options.texts("set"),
                     .units = options.has("no-units") ? UnitLabels::left_out : UnitLabels::shown,
                     .traced = Traced::curve};
-  of.deck_text = deck::read_text_file(of.deck);
+  of.deck_text = deck::read_deck_file(of.deck);
   of.deck_path = whole_path(of.deck);
   const deck::Deck deck = deck::read_deck_text(of.deck_text, of.deck, of.assignments);
   if (!deck.curve)

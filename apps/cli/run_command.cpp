@@ -5,7 +5,7 @@
 #include "apps/cli/summary.hpp"
 #include "apps/cli/trace_and_write.hpp"
 #include "core/error.hpp"
-#include "model/deck/toml_source.hpp"
+#include "model/deck/given_points.hpp"
 
 namespace arcwall {
 
@@ -29,7 +29,7 @@ RunRequest request_from(const Options& options) {
   request.run.units = options.has("no-units") ? UnitLabels::left_out : UnitLabels::shown;
   request.run.ledger = options.has("verbose") ? StepLedger::kept : StepLedger::none;
   request.folder = options.text("out").value_or(std::filesystem::path(request.run.deck).stem().string());
-  request.run.deck_text = deck::read_text_file(request.run.deck);
+  request.run.deck_text = deck::read_deck_file(request.run.deck);
   request.run.deck_path = whole_path(request.run.deck);
   return request;
 }

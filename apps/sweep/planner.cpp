@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/output/files.hpp"
+#include "model/deck/given_points.hpp"
 #include "model/deck/numbers.hpp"
 #include "model/deck/reader.hpp"
 #include "model/deck/toml_source.hpp"
@@ -183,7 +184,7 @@ Plan plan(const std::string& sweep_file) {
   if (name == sweep_file_name || name == case_list_name)
     fail_on_deck("a sweep's folder has a " + name + " of its own", "give the deck another name");
   try {
-    result.deck_text = deck::read_text_file(deck_file);
+    result.deck_text = deck::read_deck_file(deck_file);
   } catch (const InputError& error) {
     const Diagnostic& problem = error.diagnostics().front();
     fail_on_deck(problem.file + ": " + problem.message, "name the deck from the folder of the sweep");

@@ -38,6 +38,9 @@ void outline_keys(Keys& keys, Wall& wall);
 /// An array x of the keys x and z: two lists of the same length, at least 2.
 bool curve_keys(Keys& keys, std::vector<double>& x, std::vector<double>& z);
 
+/// What a reader has replaced by these lists before: points of a file or of a list, and smoothing.
+void given_points_keys(Keys& keys, bool smooths);
+
 /// The first of these members whose section has no height, or null.
 const Member* member_without_faces(const Deck& deck, const std::vector<const Member*>& members);
 

@@ -13,9 +13,7 @@ namespace {
 
 constexpr double least_distance = 1e-9;  // between points that follow each other, of the size of the outline
 
-void structure_key(Keys& keys, Keep& keep) {
-  keys.word(optional("structure"), keep, keep_words, "the structure is outside or inside");
-}
+void structure_key(Keys& keys, Keep& keep) { keys.word(optional("structure"), keep, keep_words, "outside or inside"); }
 
 void half_plane_keys(Keys& keys, HalfPlaneOutline& plane) {
   keys.vector("point", plane.point, unit::length, "");
@@ -85,9 +83,10 @@ std::optional<Fault> fault_of(const OutlinePoints& outline) {
   return std::nullopt;
 }
 
-void points_keys(Keys& keys, OutlinePoints& outline) {
+void points_keys(Keys& keys, OutlinePoints& outline, bool smooths) {
+  given_points_keys(keys, smooths);
   const bool right = curve_keys(keys, outline.x, outline.z);
-  keys.flag(optional("closed"), outline.closed, "from the last point back to the first");
+  keys.flag(optional("closed"), outline.closed, "last point to first");
   const bool is_closed = keys.lists() || outline.closed;
   if (keys.applies(is_closed, "structure", "belongs to a closed outline: the structure lies to the left of an open one",
                    "remove it, or write closed = true"))
@@ -125,6 +124,14 @@ void check_corners(Keys& keys, const Wall& wall, const PolylineOutline& outline)
 
 }  // namespace
 
+void given_points_keys(Keys& keys, bool smooths) {
+  if (keys.writes()) return;
+  std::string points;
+  std::optional<double> smoothing;
+  keys.text(optional("points", "none"), points, "for `x` and `z`");
+  if (smooths) keys.number(optional("smoothing", "none"), smoothing, unit::length, positive, "tolerance");
+}
+
 void outline_keys(Keys& keys, Wall& wall) {
   keys.part("outline", wall.outline, [&](Outline& outline) {
     keys.table(
@@ -138,13 +145,13 @@ void outline_keys(Keys& keys, Wall& wall) {
           const Option<PolylineOutline> polyline{"polyline",
                                                  "straight from point to point. The structure lies to the left of the "
                                                  "polyline; `structure` selects the side of a closed one",
-                                                 [&](PolylineOutline& line) { points_keys(of, line); }};
+                                                 [&](PolylineOutline& line) { points_keys(of, line, false); }};
           const Option<EllipseOutline> ellipse{"ellipse", "`axes`: half of each",
                                                [&](EllipseOutline& oval) { ellipse_keys(of, oval); }};
           const Option<CurveOutline> curve{
               "curve",
               "the interpolating cubic by chord length, smooth where it closes; the structure as for a polyline",
-              [&](CurveOutline& line) { points_keys(of, line); }};
+              [&](CurveOutline& line) { points_keys(of, line, true); }};
           of.one_of("type", outline, "outline", half_plane, circle, polyline, ellipse, curve);
         },
         "instead of `side` and `profile`: one of the following outlines in the plane");

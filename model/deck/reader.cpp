@@ -11,6 +11,7 @@
 #include "model/deck/arithmetic.hpp"
 #include "model/deck/cursor.hpp"
 #include "model/deck/deck_keys.hpp"
+#include "model/deck/given_points.hpp"
 #include "model/deck/key_list.hpp"
 #include "model/deck/key_reader.hpp"
 #include "model/deck/toml_source.hpp"
@@ -146,13 +147,14 @@ void report_unknown_parts(const Value& root, Findings& findings) {
   }
 }
 
-Deck read_root(const Value& value, Source source) {
+Deck read_root(Value value, Source source) {
   Deck deck{.source = std::move(source)};
   Findings findings(deck.source);
   if (value.items.empty()) {
     findings.add(value.position, "deck", "there is nothing in it", "begin with a deck of trace-path examples");
     findings.throw_if_any();
   }
+  use_given_points(value, deck.source.file, findings);
   Arithmetic arithmetic(value);
   arithmetic.report_cycles(findings);
   Cursor root(value, "", findings, &arithmetic);
@@ -169,7 +171,7 @@ Deck read_root(const Value& value, Source source) {
 }  // namespace
 
 Deck read_deck(const std::string& file, const std::vector<std::string>& assignments) {
-  return read_deck_text(read_text_file(file), file, assignments);
+  return read_deck_text(read_deck_file(file), file, assignments);
 }
 
 Deck read_deck_text(std::string_view text, const std::string& file_name, const std::vector<std::string>& assignments) {
@@ -178,7 +180,7 @@ Deck read_deck_text(std::string_view text, const std::string& file_name, const s
 
 Deck read_deck_value(Value root, const std::string& file_name, const std::vector<std::string>& assignments) {
   assign_all(root, assignments);
-  return read_root(root, {.file = file_name, .assignments = assignments});
+  return read_root(std::move(root), {.file = file_name, .assignments = assignments});
 }
 
 }  // namespace arcwall::deck

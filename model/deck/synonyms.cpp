@@ -12,7 +12,7 @@ namespace {
 
 using Use = Synonym::Use;
 
-constexpr std::array<Synonym, 80> all_synonyms{{
+constexpr std::array<Synonym, 81> all_synonyms{{
     {"land", "output_at", Use::read},
     {"landing", "jumps", Use::read},
     {"search_tries", "search_guesses", Use::read},
@@ -20,6 +20,7 @@ constexpr std::array<Synonym, 80> all_synonyms{{
     {"acts_on", "contact_surface", Use::read},
     {"keep", "structure", Use::read},
     {"over", "parameter", Use::read},
+    {"file", "points", Use::read},
     {"follow", "most-stable", Use::read},
     {"sliding", "moving", Use::read},
     {"classic", "euler-bernoulli", Use::read},

@@ -11,7 +11,7 @@ namespace arcwall::deck {
 /// More than any deck needs, less than any parser chokes on.
 struct TextLimits {
   std::size_t bytes = 16u << 20u;
-  std::size_t line_bytes = 64u << 10u;
+  std::size_t line_bytes = 1u << 20u;
   int depth = 32;      ///< of brackets and braces in each other
   int key_parts = 32;  ///< of one dotted key
 };

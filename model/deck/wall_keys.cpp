@@ -13,6 +13,7 @@ namespace arcwall::deck {
 namespace {
 
 void spline_keys(Keys& keys, SplineProfile& profile) {
+  given_points_keys(keys, true);
   if (!curve_keys(keys, profile.x, profile.z)) return;
   for (std::size_t i = 1; i < profile.x.size(); ++i) {
     if (profile.x[i] > profile.x[i - 1]) continue;

@@ -74,7 +74,7 @@ class Deck:
         'Two-bar truss past both peaks'
         """
         name = os.fspath(file)
-        return cls.parse(_engine.read_text_file(name), name=name)
+        return cls.parse(_engine.read_deck_file(name), name=name)
 
     @classmethod
     def parse(cls, text: str | bytes, *, name: str = "deck.toml") -> Deck:

@@ -7,7 +7,7 @@
 
 #include "apps/output/files.hpp"
 #include "core/error.hpp"
-#include "model/deck/toml_source.hpp"
+#include "model/deck/given_points.hpp"
 #include "model/run_description.hpp"
 
 namespace arcwall::python {
@@ -20,7 +20,7 @@ inline RunDescription described(const std::string& file, const std::string& text
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) return of;
   try {
-    if (deck::read_text_file(file) == text) of.deck_path = whole_path(file);
+    if (deck::read_deck_file(file) == text) of.deck_path = whole_path(file);
   } catch (const InputError&) {
     // A file that cannot be read is not the deck's.
   }

@@ -1,5 +1,6 @@
 #include <variant>
 
+#include "model/deck/given_points.hpp"
 #include "model/deck/numbers.hpp"
 #include "model/deck/reader.hpp"
 #include "model/deck/toml_source.hpp"
@@ -83,7 +84,7 @@ void bind_decks(py::module_& module) {
         document(text, file, assignments);
       },
       py::arg("text"), py::arg("file"), py::arg("assignments"));
-  module.def("read_text_file", &deck::read_text_file, py::arg("file"));
+  module.def("read_deck_file", &deck::read_deck_file, py::arg("file"));
   module.def("written", &written, py::arg("text"), py::arg("file"), py::arg("assignments"));
   module.def("check", &check, py::arg("text"), py::arg("file"), py::arg("assignments"));
   module.def("value", &value, py::arg("text"), py::arg("file"), py::arg("assignments"), py::arg("key"));

@@ -124,8 +124,8 @@ TEST(TomlSource, RefusesBytesThatAreNoText) {
 }
 
 TEST(TomlSource, RefusesWhatIsTooLargeOrTooDeep) {
-  expect_refused("\n\na = \"" + std::string(1'000'000, 'x') + "\"", 3, "longer than 65536");
-  expect_refused(std::string(1'000'000, 'x'), 1, "longer than 65536");
+  expect_refused("\n\na = \"" + std::string(2'000'000, 'x') + "\"", 3, "longer than 1048576");
+  expect_refused(std::string(2'000'000, 'x'), 1, "longer than 1048576");
   expect_refused(std::string(17u << 20u, '\n'), 0, "larger than 16 MB");
   expect_refused("\na = " + std::string(60'000, '['), 2, "nested deeper");
   expect_refused("a = " + repeated("[", 33) + repeated("]", 33), 1, "nested deeper");
