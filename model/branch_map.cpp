@@ -28,12 +28,12 @@ std::pair<double, double> lambdas(const BranchMapSegment& segment, const Record&
 }
 
 // dΠ/dλ along a path is ∂Π/∂λ: the unknowns do no work.
-double energy_slope(const System& system, const State& state) {
+double energy_slope(const Model& model, const State& state) {
   const double d = 1e-4 * std::max(1.0, std::abs(state.lambda));
   State ahead = state, behind = state;
   ahead.lambda += d;
   behind.lambda -= d;
-  return (system.energy(ahead) - system.energy(behind)) / (2.0 * d);
+  return (model.energy(ahead) - model.energy(behind)) / (2.0 * d);
 }
 
 class Maker {
@@ -102,8 +102,7 @@ class Maker {
     made.unstable = inside.count.unstable;
     const auto events = events_at(first);
     if (!events.empty() && events.back()->unstable_after) made.unstable = events.back()->unstable_after;
-    for (std::size_t i = first; i <= last; ++i)
-      made.slopes.push_back(energy_slope(model_.system(), record_.points[i].state));
+    for (std::size_t i = first; i <= last; ++i) made.slopes.push_back(energy_slope(model_, record_.points[i].state));
     return made;
   }
 

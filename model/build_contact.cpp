@@ -277,7 +277,8 @@ bool has_knife_edge(const deck::Wall& wall, const PinchedPlaces& known) {
 }
 
 // Whether an outline can be touched by a member of some height at all; adds a problem if not.
-bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlaces& known, DeckProblems& problems) {
+bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlaces& known, double unit,
+               DeckProblems& problems) {
   if (!wall.outline) return true;
   if (wall.contact_surface == deck::ContactSurface::face && !mesh.thickness.empty()) {
     problems.add(wall.position, "wall.contact_surface",
@@ -301,7 +302,7 @@ bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlac
     problems.add(wall.position, "wall.outline",
                  fmt::format("the outline is hollow with a radius of {:.4g} somewhere, and member \"{}\" with half its "
                              "height, {:.4g}, does not fit into it",
-                             1.0 / hollow, mesh.name, off),
+                             unit / hollow, mesh.name, unit * off),
                  "make the outline's bends wider, or use contact_surface = \"axis\"");
     return false;
   }
@@ -333,7 +334,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
     Penetration deepest;
     std::map<double, std::shared_ptr<const Obstacle>> obstacles;  // by how far axes stay off
     for (const MemberMesh& mesh : structure.members()) {
-      if (!concerns(wall, mesh.name) || !can_touch(wall, mesh, known, problems)) continue;
+      if (!concerns(wall, mesh.name) || !can_touch(wall, mesh, known, deck.frame.factor(), problems)) continue;
       const double off = kept_off(wall, mesh.height.value_or(0.0));
       std::shared_ptr<const Obstacle>& obstacle = obstacles[off];
       if (!obstacle) obstacle = obstacle_of(wall, off);
@@ -379,7 +380,8 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
       problems.add(
           wall.position, "wall." + wall.name,
           fmt::format("member \"{}\" is inside the wall at the start: node {}:{:.4g} by {:.9g}{}{}",
-                      deepest.label.member, deepest.label.member, deepest.label.fraction, deepest.depth, length,
+                      deepest.label.member, deepest.label.member, deepest.label.fraction,
+                      deck.frame.factor() * deepest.depth, length,
                       wall.interference > 0.0 ? ", more than its interference" : ""),
           wall.interference > 0.0 ? "give it a greater interference, or move the wall" : how_to_part(wall, deepest));
   }

@@ -47,27 +47,26 @@ std::optional<Dof> reaction_dof(deck::Component component) {
   return counterpart(known, component);
 }
 
-std::string unit_of(deck::Component component, const deck::Units& units) {
+deck::Dimension dimension_of(deck::Component component) {
   switch (component) {
     case deck::Component::rotation:
-      return "rad";
     case deck::Component::thickness:
     case deck::Component::utilisation:
-      return "-";
+      return deck::unit::none;
     case deck::Component::reaction_x:
     case deck::Component::reaction_z:
     case deck::Component::axial_force:
     case deck::Component::force_x:
     case deck::Component::force_z:
-      return unit_text(deck::unit::force, units);
+      return deck::unit::force;
     case deck::Component::reaction_moment:
     case deck::Component::moment:
     case deck::Component::max_moment:
-      return unit_text(deck::unit::moment, units);
+      return deck::unit::moment;
     case deck::Component::max_stress:
-      return unit_text(deck::unit::stress, units);
+      return deck::unit::stress;
     case deck::Component::greatest_pressure:
-      return unit_text(deck::unit::line_load, units);
+      return deck::unit::line_load;
     case deck::Component::x:
     case deck::Component::z:
     case deck::Component::gap:
@@ -75,11 +74,44 @@ std::string unit_of(deck::Component component, const deck::Units& units) {
     case deck::Component::contact_end:
     case deck::Component::face_above_z:
     case deck::Component::face_below_z:
-      return unit_text(deck::unit::length, units);
+      return deck::unit::length;
     case deck::Component::thickness2:
-      return unit_text(deck::unit::curvature, units);
+      return deck::unit::curvature;
   }
-  return {};
+  return deck::unit::none;
+}
+
+std::shared_ptr<const Observable> in_users_unit(std::shared_ptr<const Observable> quantity, double factor) {
+  return factor == 1.0 ? std::move(quantity) : std::make_shared<ScaledObservable>(std::move(quantity), factor);
+}
+
+// The coordinate x of a place.
+class UsersX final : public Observable {
+ public:
+  UsersX(std::shared_ptr<const Observable> here, const deck::Frame& frame) : here_(std::move(here)), frame_(frame) {}
+  double value(const State& state) const override { return frame_.place({here_->value(state), 0.0}).x(); }
+  Row gradient(const State& state) const override {
+    Row row = here_->gradient(state);
+    row.dx *= frame_.factor();
+    row.dlambda *= frame_.factor();
+    return row;
+  }
+
+ private:
+  std::shared_ptr<const Observable> here_;
+  deck::Frame frame_;
+};
+
+// A monitor of the component, without its quantity.
+MonitorColumn column_of(std::string name, deck::Component component, const deck::Deck& deck) {
+  const deck::Dimension dimension = dimension_of(component);
+  std::string unit = unit_text(dimension, deck.units);
+  if (component == deck::Component::rotation) unit = "rad";
+  if (component == deck::Component::thickness || component == deck::Component::utilisation) unit = "-";
+  return {.name = std::move(name),
+          .unit = std::move(unit),
+          .component = component,
+          .factor = deck.frame.factor(dimension.length)};
 }
 
 // The member whose end a joint is; where several meet, the first that has what is asked for.
@@ -401,12 +433,9 @@ void add_x(const deck::Deck& deck, const Measured& from, const deck::Monitor& mo
            std::vector<MonitorColumn>& columns) {
   std::string name = monitor.name + "-x";
   while (deck::find(deck.monitors, name) != nullptr) name += "-";
-  const auto x = contact_edge(from, monitor, ContactEdge::What::x);
-  columns.push_back({.name = std::move(name),
-                     .unit = unit_of(monitor.component, deck.units),
-                     .component = monitor.component,
-                     .quantity = x,
-                     .raw = x});
+  MonitorColumn& column = columns.emplace_back(column_of(std::move(name), monitor.component, deck));
+  column.raw = contact_edge(from, monitor, ContactEdge::What::x);
+  column.quantity = std::make_shared<UsersX>(column.raw, deck.frame);
 }
 
 // A column for each direction that is moved and has no monitor of its reaction: `reaction-x-B`.
@@ -419,12 +448,10 @@ void add_reactions_of_movements(const deck::Deck& deck, const Measured& from, st
     std::string name = text_of(deck::component_words, component) + "-" + point;
     while (deck::find(deck.monitors, name) != nullptr) name += "-";
     const auto quantity = shown_at(from, {.name = point}, component);
-    if (deck::find(columns, name) == nullptr && quantity)
-      columns.push_back({.name = std::move(name),
-                         .unit = unit_of(component, deck.units),
-                         .component = component,
-                         .quantity = quantity,
-                         .raw = quantity});
+    if (deck::find(columns, name) != nullptr || !quantity) return;
+    MonitorColumn& column = columns.emplace_back(column_of(std::move(name), component, deck));
+    column.raw = quantity;
+    column.quantity = in_users_unit(quantity, column.factor);
   };
   for (const deck::Prescribed& moved : deck.prescribed) {
     add(moved.point, moved.x.has_value(), deck::Component::reaction_x);
@@ -550,18 +577,14 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measure
           "\"essenburg\"; axial-force and moment need one member, and moment a beam");
       continue;
     }
-    const auto raw = quantity;
-    if (monitor.sign < 0) quantity = std::make_shared<ScaledObservable>(raw, -1.0);
-    columns.push_back({.name = monitor.name,
-                       .unit = unit_of(monitor.component, deck.units),
-                       .component = monitor.component,
-                       .quantity = std::move(quantity),
-                       .raw = raw});
+    MonitorColumn& column = columns.emplace_back(column_of(monitor.name, monitor.component, deck));
+    column.raw = quantity;
+    column.quantity = in_users_unit(std::move(quantity), monitor.sign * column.factor);
     if (is_greatest(monitor.component)) add_place(deck, from, monitor, columns);
     if (is_contact_edge(monitor.component)) add_x(deck, from, monitor, columns);
   }
   add_reactions_of_movements(deck, from, columns);
-  for (MonitorColumn& column : columns) column.roundoff = roundoff_of(deck, from, column);
+  for (MonitorColumn& column : columns) column.roundoff = column.factor * roundoff_of(deck, from, column);
   return columns;
 }
 

@@ -88,7 +88,8 @@ Section balanced(Section section, double length) {
 }
 
 // A section of finite height needs an axis that bends less: at the centre of curvature its fibres would meet.
-void check_curvature(const deck::Member& member, const MemberDescription& description, DeckProblems& problems) {
+void check_curvature(const deck::Member& member, const MemberDescription& description, double unit,
+                     DeckProblems& problems) {
   const ImperfectAxis shape(*description.axis, description.imperfection);
   const int places = 2 * member.elements;
   for (int i = 0; i <= places; ++i) {
@@ -98,7 +99,7 @@ void check_curvature(const deck::Member& member, const MemberDescription& descri
     problems.add(
         member.position, "member." + member.name,
         fmt::format("at {} of its length the axis has a radius of {:.4g}, less than half the height of section {}",
-                    double(i) / places, radius, member.section),
+                    double(i) / places, unit * radius, member.section),
         "bend the axis less, or take theory \"euler-bernoulli\" or \"elastica\"");
     return;
   }
@@ -107,13 +108,15 @@ void check_curvature(const deck::Member& member, const MemberDescription& descri
 // Stiffnesses of an element, over their units, and its length against the coordinates and the height of its section,
 // which are only so fine.
 void check_magnitudes(const deck::Member& member, const MemberDescription& description, const Places& places,
-                      DeckProblems& problems) {
+                      const deck::Frame& frame, DeckProblems& problems) {
   const double h = description.axis->length() / member.elements;
   const double EA = description.section.EA();
   const double EI = member.theory == Theory::truss ? EA * h * h : description.section.EI();
   const bool shears = member.theory == Theory::reissner || member.theory == Theory::essenburg;
   const double GA = shears ? description.section.GA() : EA;
-  const auto far = [&](const std::string& name) { return places.ends.at(name).cwiseAbs().maxCoeff(); };
+  const auto far = [&](const std::string& name) {
+    return frame.place(places.ends.at(name)).cwiseAbs().maxCoeff() / frame.factor();
+  };
   const double height = description.section.height.value_or(0.0);
   const bool is_long_enough = h > 1e-12 * std::max({far(member.from), far(member.to), height});
   const auto is_usable = [](double value) { return value > 1e-100 && value < 1e100; };
@@ -124,21 +127,22 @@ void check_magnitudes(const deck::Member& member, const MemberDescription& descr
       member.position, "member." + member.name,
       fmt::format("with elements of length {:.4g}, EA = {:.4g} and EI = {:.4g} its stiffness cannot be computed "
                   "with numbers of 16 digits",
-                  h, EA, EI),
+                  frame.factor() * h, EA, frame.factor(2) * EI),
       "choose units in which lengths and forces are nearer to 1, and an origin near the structure");
 }
 
 // A deviation that is as large as the member itself makes another structure of it, and a very large one makes lengths
 // that are not numbers.
-void check_imperfections(const deck::Member& member, const MemberDescription& description, DeckProblems& problems) {
+void check_imperfections(const deck::Member& member, const MemberDescription& description, double unit,
+                         DeckProblems& problems) {
   const double length = description.axis->length();
   for (const deck::Imperfection& wave : member.imperfections)
     if (!(std::abs(wave.amplitude) < length))
-      problems.add(
-          wave.position, "member." + member.name + ".imperfection",
-          fmt::format("an amplitude of {:.4g} is as large as the member is long, {:.4g}", wave.amplitude, length),
-          "an imperfection is a small part of the length, often 1/1000; give a bent axis by \"sine\" or "
-          "\"curve\"");
+      problems.add(wave.position, "member." + member.name + ".imperfection",
+                   fmt::format("an amplitude of {:.4g} is as large as the member is long, {:.4g}",
+                               unit * wave.amplitude, unit * length),
+                   "an imperfection is a small part of the length, often 1/1000; give a bent axis by \"sine\" or "
+                   "\"curve\"");
 }
 
 // As few as show what holds the member: the nodes at which springs stand are among them, and a foundation, which may
@@ -189,8 +193,8 @@ void add_members(const deck::Deck& deck, bool coarse, DeckProblems& problems, St
   for (const deck::Member& member : deck.members) {
     descriptions.push_back(description_of(deck, member, coarse, out));
     if (coarse) continue;
-    check_magnitudes(member, descriptions.back(), out.places, problems);
-    check_imperfections(member, descriptions.back(), problems);
+    check_magnitudes(member, descriptions.back(), out.places, deck.frame, problems);
+    check_imperfections(member, descriptions.back(), deck.frame.factor(), problems);
   }
   problems.raise();
   for (std::size_t i = 0; i < descriptions.size(); ++i) {
@@ -200,7 +204,7 @@ void add_members(const deck::Deck& deck, bool coarse, DeckProblems& problems, St
           member.position, "member." + member.name + ".elements",
           fmt::format("a truss of {} elements is a chain of hinges that can move without strain", member.elements),
           "use elements = 1, or theory = \"euler-bernoulli\"");
-    if (member.theory == Theory::essenburg) check_curvature(member, descriptions[i], problems);
+    if (member.theory == Theory::essenburg) check_curvature(member, descriptions[i], deck.frame.factor(), problems);
     out.places.members[member.name] = out.builder.add_member(std::move(descriptions[i]));
   }
 }

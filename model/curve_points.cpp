@@ -117,7 +117,7 @@ double CurveReader::crossing_value(const State& state) const {
 void add_scenery(const Model& model, const State& state, CurvePoint& to) {
   to.shape = shape_of(model, state);
   to.walls = wall_shapes(model, state.lambda);
-  to.heights = section_heights(model.deck());
+  to.heights = section_heights(model.whole_deck());
 }
 
 CurvePoint CurveReader::read_off(const PathPoint& at, SideCounts& counts) const {

@@ -98,11 +98,12 @@ void check_between_nodes(const deck::Deck& deck, const SlidingContact& contact, 
   const auto entered = contact.entered(contact.rest(), round_off);
   if (!entered) return;
   const deck::Wall& wall = *deck::find(deck.walls, entered->label.wall);
-  problems.add(wall.position, "wall." + wall.name,
-               fmt::format("member \"{}\" is inside the wall at the start: at {}:{:.4g}, between nodes, by {:.4g}{}",
-                           entered->label.member, entered->label.member, entered->label.fraction, entered->depth,
-                           deck.units.length.empty() ? "" : " " + deck.units.length),
-               "move the wall, or give it an interference");
+  problems.add(
+      wall.position, "wall." + wall.name,
+      fmt::format("member \"{}\" is inside the wall at the start: at {}:{:.4g}, between nodes, by {:.4g}{}",
+                  entered->label.member, entered->label.member, entered->label.fraction,
+                  deck.frame.factor() * entered->depth, deck.units.length.empty() ? "" : " " + deck.units.length),
+      "move the wall, or give it an interference");
 }
 
 void check_watched(const deck::Deck& deck, DeckProblems& problems) {
@@ -162,7 +163,7 @@ std::string flat_law(const deck::Spring& spring, const deck::Units& units) {
       law_of(spring), unit_text(deck::unit::line_load, units));
 }
 
-std::string smoothed_law(const deck::Spring& spring) {
+std::string smoothed_law(const deck::Spring& spring, double unit) {
   constexpr int parts = 32;  // of an interval, between which the difference is read off
   const auto* foundation = std::get_if<deck::Foundation>(&spring.kind);
   if (foundation == nullptr || !foundation->law || foundation->law->interpolation) return {};
@@ -182,7 +183,7 @@ std::string smoothed_law(const deck::Spring& spring) {
   return fmt::format(
       "{} is smooth between its points: at displacement {:.4g} it is {:.2g} % of its maximum force off a "
       "straight line; give points closer together, or confirm it with interpolation = \"smooth\"",
-      law_of(spring), at, 100.0 * off / greatest);
+      law_of(spring), unit * at, 100.0 * off / greatest);
 }
 
 }  // namespace arcwall

@@ -45,7 +45,7 @@ void check_watched(const deck::Deck& deck, DeckProblems& problems);
 std::string start_outside_bounds(const deck::Path& path);
 
 /// Says how far a law whose interpolation was not asked for is from straight pieces; empty where it was.
-std::string smoothed_law(const deck::Spring& spring);
+std::string smoothed_law(const deck::Spring& spring, double unit);
 
 /// Says that the law of a foundation holds nothing at rest, in a deck whose supports leave rigid motions free; empty if
 /// it does.

@@ -25,7 +25,7 @@ struct DeckFamily::Kept {
 DeckFamily::DeckFamily(const deck::Deck& deck, deck::DeckNumber number)
     : deck_(without_answers(deck)), text_(deck::to_toml(deck_)), number_(std::move(number)) {
   own_ = std::make_shared<const Model>(deck_);
-  spacing_ = natural_step(number_, own_->structure());
+  spacing_ = natural_step(number_, *own_);
 }
 
 DeckFamily::~DeckFamily() = default;
@@ -39,9 +39,10 @@ DeckFamily::Kept& DeckFamily::kept(double value) const {
   }
   Kept made{.value = value};
   try {
-    made.model = value == number_.value
-                     ? own_
-                     : std::make_shared<const Model>(deck::with_number(text_, deck_.source.file, number_, value));
+    made.model =
+        value == number_.value
+            ? own_
+            : std::make_shared<const Model>(deck::with_number(text_, deck_.source.file, number_, value), own_->frame());
   } catch (const InputError& error) {
     problem_ = made.problem = first_message(error);
   }

@@ -49,7 +49,7 @@ void tell_state(const Model& model, const State& state, RecordJump& jump) {
   for (const MonitorColumn& column : model.monitors()) jump.monitors.push_back(column.quantity->value(state));
   jump.contacts = stretches_of(model, state);
   jump.contact_pattern = contact_pattern_of(jump.contacts);
-  jump.energy = model.system().energy(state);
+  jump.energy = model.energy(state);
 }
 
 // --- one fall -------------------------------------------------------------------------------------------------------
@@ -226,7 +226,7 @@ class Falls {
       if (model_.adrift(arc->to.state)) return std::nullopt;
       for (const Event& event : arc->events) {
         if (!loses_stability(event)) continue;
-        found = Loss{.kind = event.kind, .at = event.state, .energy = model_.system().energy(event.state)};
+        found = Loss{.kind = event.kind, .at = event.state, .energy = model_.energy(event.state)};
         if (event.branching && event.branching->mode.dx.size() == event.state.x.size())
           found->behind = moved(event.state, event.branching->mode, pushes[0]);
       }

@@ -117,7 +117,7 @@ double LooseHolds::stiffness() const {
   return stiffness;
 }
 
-std::string LooseHolds::warning(const deck::Units& units) const {
+std::string LooseHolds::warning(const deck::Deck& deck) const {
   std::string places;
   for (const Hold& hold : holds) {
     const bool both = hold.stiffness.x > 0.0 && hold.stiffness.z > 0.0;
@@ -130,7 +130,7 @@ std::string LooseHolds::warning(const deck::Units& units) const {
       "the supports leave rigid-body motions free, and only contact can restrain them: stabilising springs of {:.3g} "
       "{} "
       "at {} were added",
-      stiffness(), unit_text(deck::unit::line_load, units), places);
+      deck.frame.factor(-1) * stiffness(), unit_text(deck::unit::line_load, deck.units), places);
 }
 
 double softest_stiffness(const deck::Deck& deck, const Structure& structure) {

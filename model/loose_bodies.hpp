@@ -31,7 +31,7 @@ struct LooseHolds {
   std::vector<deck::Spring> springs(double times = 1.0) const;
 
   /// What the user should know of them.
-  std::string warning(const deck::Units& units) const;
+  std::string warning(const deck::Deck& deck) const;
 };
 
 /// Those of a deck whose structure can move without strain; none if no wall concerns it, if its contact knows no such

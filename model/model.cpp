@@ -22,6 +22,10 @@ namespace arcwall {
 
 namespace {
 
+std::shared_ptr<const deck::Deck> in_frame(std::shared_ptr<const deck::Deck> deck, const deck::Frame& frame) {
+  return frame.is_users() ? deck : std::make_shared<const deck::Deck>(deck::in_frame(*deck, frame));
+}
+
 bool moves_walls(const deck::Deck& deck) {
   return std::any_of(deck.walls.begin(), deck.walls.end(),
                      [](const deck::Wall& wall) { return !motion_of(wall).is_none(); });
@@ -51,9 +55,10 @@ void check_search(const Model& model, DeckProblems& problems) {
 }  // namespace
 
 // The models of later stages are built once to see whether they can be.
-Model::Model(deck::Deck deck) : Model(std::make_shared<const deck::Deck>(std::move(deck)), 0, std::nullopt) {
+Model::Model(deck::Deck deck, const std::optional<deck::Frame>& frame)
+    : Model(std::make_shared<const deck::Deck>(deck), frame ? *frame : deck::frame_of(deck), 0, std::nullopt) {
   for (std::size_t stage = 1; stage < whole_deck_->stages.size(); ++stage)
-    for (const std::string& warning : Model(whole_deck_, static_cast<Index>(stage), progress_).warnings_)
+    for (const std::string& warning : Model(whole_deck_, this->frame(), static_cast<Index>(stage), progress_).warnings_)
       if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
 }
 
@@ -62,16 +67,18 @@ bool Model::begin_stage(double lambda) {
   if (ended + 1 >= whole_deck_->stages.size()) return false;
   const Model& last = at_stage(static_cast<Index>(ended));
   auto progress = progress_after(whole_deck_->stages[ended], lambda, last.progress_);
-  later_.push_back(std::unique_ptr<Model>(new Model(whole_deck_, static_cast<Index>(ended) + 1, std::move(progress))));
+  later_.push_back(
+      std::unique_ptr<Model>(new Model(whole_deck_, frame(), static_cast<Index>(ended) + 1, std::move(progress))));
   ended_stages_.push_back(lambda);
   return true;
 }
 
-Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional<std::vector<DrivenThing>> progress)
+Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, Index stage,
+             std::optional<std::vector<DrivenThing>> progress)
     : whole_deck_(std::move(whole)),
       stage_(stage),
       progress_(progress ? std::move(*progress) : things_to_drive(*whole_deck_)),
-      deck_(deck_of_stage(whole_deck_, static_cast<std::size_t>(stage), progress_)) {
+      deck_(in_frame(deck_of_stage(whole_deck_, static_cast<std::size_t>(stage), progress_), frame)) {
   DeckProblems problems(deck_->source);
   StructureOfDeck described = describe_structure(*deck_, problems);
   problems.raise();
@@ -133,7 +140,8 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
     if (!monitor.is_place) explore_.preference.push_back(monitor.raw);
   if (stage_ == 0)
     for (const deck::Spring& spring : deck_->springs) {
-      if (std::string warning = smoothed_law(spring); !warning.empty()) warnings_.push_back(std::move(warning));
+      if (std::string warning = smoothed_law(spring, frame.factor()); !warning.empty())
+        warnings_.push_back(std::move(warning));
       if (loose_holds_.empty()) continue;
       if (std::string warning = flat_law(spring, deck_->units); !warning.empty())
         warnings_.push_back(std::move(warning));
@@ -172,7 +180,7 @@ bool Model::hold_loose_bodies() {
   deck::Deck held = *deck_;
   held.springs.insert(held.springs.end(), springs.begin(), springs.end());
   deck_ = std::make_shared<const deck::Deck>(std::move(held));
-  if (!loose_holds_.empty()) warnings_.push_back(loose_holds_.warning(deck_->units));
+  if (!loose_holds_.empty()) warnings_.push_back(loose_holds_.warning(*deck_));
   return !loose_holds_.empty();
 }
 

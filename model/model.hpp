@@ -27,23 +27,34 @@ struct MonitorColumn {
   std::string name{};
   std::string unit{};  ///< `cm`, `rad`, `kN`, `kN cm`; without brackets
   deck::Component component = deck::Component::z;
-  std::shared_ptr<const Observable> quantity{};  ///< with the deck's sign
-  std::shared_ptr<const Observable> raw{};       ///< without the deck's sign; null for a position
+  std::shared_ptr<const Observable> quantity{};  ///< with the deck's sign, in the user's unit
+  std::shared_ptr<const Observable> raw{};       ///< in the model's frame without the deck's sign; null for a position
   bool is_place = false;                         ///< the position of a maximum along a member
   double roundoff = 0.0;                         ///< of its values near zero
+  double factor = 1.0;                           ///< the user's value over that in the model's frame
 };
 
 /// Builds from a deck the system, its monitors and the options of tracing.
 class Model {
  public:
   /// Builds the model. Throws InputError with all diagnostics: an unsupported feature, a mechanism, a point inside a
-  /// wall, a load without effect.
-  explicit Model(deck::Deck deck);
+  /// wall, a load without effect. `frame`: that of another model whose states it is to take; empty: the deck's.
+  explicit Model(deck::Deck deck, const std::optional<deck::Frame>& frame = {});
 
-  /// Returns the traced deck: of a deck with stages, that of this model's stage.
+  /// Returns the traced deck in the coordinates of frame(): of a deck with stages, that of this model's stage. States,
+  /// structure(), system() and body() are in this frame; monitors and a Record are in the user's coordinates.
   const deck::Deck& deck() const { return *deck_; }
 
-  /// Returns the given deck with all stages.
+  /// Returns the coordinates in which the model computes.
+  const deck::Frame& frame() const { return deck_->frame; }
+
+  /// Returns the size of the structure in the user's unit [length].
+  double size() const { return frame().factor() * structure_->length_scale(); }
+
+  /// Returns the total potential energy in the user's unit [force·length].
+  double energy(const State& state) const { return frame().factor() * system().energy(state); }
+
+  /// Returns the given deck with all stages, in the user's coordinates.
   const deck::Deck& whole_deck() const { return *whole_deck_; }
 
   /// Ends the last stage at λ and builds the model of the next one. Returns false if there is none.
@@ -122,7 +133,8 @@ class Model {
   State begun_from(const State& state) const;
   void make_kinks();
   // `progress`: of what λ drives, before the stage; empty where nothing has gone before it.
-  Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional<std::vector<DrivenThing>> progress);
+  Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, Index stage,
+        std::optional<std::vector<DrivenThing>> progress);
   bool hold_loose_bodies();
   StructureOfDeck described_if_held(double times) const;
   std::unique_ptr<Structure> held_structure(bool ramp) const;

@@ -23,12 +23,20 @@ std::vector<double> values(const Model* model, const State& state) {
   return result;
 }
 
+std::optional<double> pressure_of(const ContactPoint& contact, const deck::Frame& frame) {
+  auto pressure = contact.pressure();
+  if (pressure) *pressure *= frame.factor(-1);
+  return pressure;
+}
+
 std::vector<RecordForce> forces_at(const Model* model, const State& state) {
   std::vector<RecordForce> forces;
   if (model == nullptr || model->contacts() == nullptr) return forces;
   for (const ContactPoint& contact : model->contacts()->closed_contacts(state))
-    forces.push_back(
-        {.label = contact.label, .x = contact.place.x(), .force = contact.force, .pressure = contact.pressure()});
+    forces.push_back({.label = contact.label,
+                      .x = model->frame().place(contact.place).x(),
+                      .force = contact.force,
+                      .pressure = pressure_of(contact, model->frame())});
   return forces;
 }
 
@@ -93,7 +101,7 @@ void Recorder::add(const Arc& arc) {
        .count = to.count,
        .unstable_load_control = model_ == nullptr ? std::nullopt : model_->unstable_under_dead_load(to),
        .contacts = model_ == nullptr ? 0 : model_->closed_contacts(to.state),
-       .energy = system_.energy(to.state),
+       .energy = model_ == nullptr ? system_.energy(to.state) : model_->energy(to.state),
        .iterations = to.iterations,
        .residual = to.residual,
        .forces = forces_at(model_, to.state),
@@ -145,6 +153,10 @@ RecordEvent Recorder::recorded(const Event& event, const State& at) const {
     record.lambda_uncertainty = record_.events[static_cast<std::size_t>(*origin)].lambda_uncertainty;
   if (event.kind == EventKind::turning_point || event.kind == EventKind::value_crossing) record.monitor = event.label;
   record.value = event.value;
+  if (record.continuum && model_ != nullptr) {
+    record.continuum->energy *= model_->frame().factor();
+    record.continuum->length *= model_->frame().factor();
+  }
   if (event.branching) {
     record.branch_type = event.branching->type;
     record.multiplicity = event.branching->multiplicity;
@@ -154,7 +166,7 @@ RecordEvent Recorder::recorded(const Event& event, const State& at) const {
   if (model_ == nullptr || !changes_contact(event.kind)) return record;
   for (const Index j : event.guards) {
     const ContactPoint contact = model_->contacts()->contact(event.state, j);
-    record.contacts.push_back({.label = contact.label, .x = contact.place.x()});
+    record.contacts.push_back({.label = contact.label, .x = model_->frame().place(contact.place).x()});
   }
   return record;
 }

@@ -260,7 +260,7 @@ std::vector<double> spread_over(const Record& record) {
 
 RecordFound told(const Model& model, const CountedState& found) {
   RecordFound record{.contact_pattern = contact_pattern_of(stretches_of(model, found.state)),
-                     .energy = model.system().energy(found.state),
+                     .energy = model.energy(found.state),
                      .unstable = found.count.unstable};
   for (const MonitorColumn& column : model.monitors()) record.monitors.push_back(column.quantity->value(found.state));
   return record;

@@ -68,16 +68,16 @@ bool has_sensitivity(EventKind kind) {
 }  // namespace
 
 // A variable's makes none of the numbers that it enters change by more than theirs.
-double natural_step(const deck::DeckNumber& number, const Structure& structure) {
+double natural_step(const deck::DeckNumber& number, const Model& model) {
   constexpr double of_force = 3e-3, of_value = 1e-3, of_unit = 1e-5;
   if (!number.enters.empty()) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [entered, slope] : number.enters)
-      least = std::min(least, natural_step(entered, structure) / std::abs(slope));
+      least = std::min(least, natural_step(entered, model) / std::abs(slope));
     return least;
   }
-  const double unit = std::pow(structure.length_scale(), number.unit.length) *
-                      std::pow(std::max(structure.force_scale(), 1e-300), number.unit.force);
+  const double unit = std::pow(model.size(), number.unit.length) *
+                      std::pow(std::max(model.structure().force_scale(), 1e-300), number.unit.force);
   if (is_measured_by_itself(number)) return of_value * std::abs(number.value);
   if (number.unit.force != 0) return number.value != 0.0 ? of_force * std::abs(number.value) : of_unit * unit;
   return std::max(of_value * std::abs(number.value), of_unit * unit);
@@ -92,17 +92,18 @@ struct Sensitivities::Beside {
   std::vector<One> models{};
   std::string problem{};
 
-  void build(const deck::Deck& deck, const deck::DeckNumber& number, double h, const std::vector<double>& ended_stages);
+  void build(const deck::Deck& deck, const deck::Frame& frame, const deck::DeckNumber& number, double h,
+             const std::vector<double>& ended_stages);
 };
 
-void Sensitivities::Beside::build(const deck::Deck& deck, const deck::DeckNumber& number, double h,
-                                  const std::vector<double>& ended_stages) {
+void Sensitivities::Beside::build(const deck::Deck& deck, const deck::Frame& frame, const deck::DeckNumber& number,
+                                  double h, const std::vector<double>& ended_stages) {
   models.clear();
   problem.clear();
   for (const DifferencePlace& place : central_difference) {
     std::unique_ptr<Model> model;
     try {
-      model = std::make_unique<Model>(with_number(deck, number, number.value + place.offset * h));
+      model = std::make_unique<Model>(with_number(deck, number, number.value + place.offset * h), frame);
     } catch (const InputError& error) {
       problem = "a slightly different value gives no valid deck: " + first_message(error);
       return;
@@ -153,8 +154,8 @@ const Sensitivities::Beside& Sensitivities::beside(std::size_t number, std::size
   if (!kept) {
     const deck::DeckNumber& varied = numbers_[number];
     kept = std::make_unique<Beside>();
-    kept->build(without_answers(model_.whole_deck()), varied, steps[step] * natural_step(varied, model_.structure()),
-                ended_stages_);
+    kept->build(without_answers(model_.whole_deck()), model_.frame(), varied,
+                steps[step] * natural_step(varied, model_), ended_stages_);
   }
   return kept->problem.empty() || shortest ? *kept : beside(number, step + 1);
 }

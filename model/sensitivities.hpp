@@ -21,7 +21,7 @@ void check_sensitivity(const deck::Deck& deck, DeckProblems& problems);
 /// The step by which a number is varied for derivatives: a part of its value, greater where it is measured in forces,
 /// in which equations are linear, and no less than a part of what it is measured in, so that round-off does not hide
 /// what a small imperfection does.
-double natural_step(const deck::DeckNumber& number, const Structure& structure);
+double natural_step(const deck::DeckNumber& number, const Model& model);
 
 /// How events of a run depend on the numbers that the deck's `path.sensitivity` names (docs/theory.md, section 12).
 ///

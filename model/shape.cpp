@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "model/build_contact.hpp"
 
@@ -12,6 +14,19 @@ namespace {
 
 std::vector<ContactMark> contact_marks(const ContactQuery& contacts, const State& state);
 
+void to_users_coordinates(const deck::Frame& frame, Shape& shape) {
+  for (MemberShape& member : shape.members)
+    for (ShapePoint& point : member.points) {
+      point.position = frame.place(point.position);
+      point.displacement *= frame.factor();
+      point.moment *= frame.factor();
+    }
+  for (ContactMark& mark : shape.contacts) {
+    mark.position = frame.place(mark.position);
+    if (mark.pressure) *mark.pressure *= frame.factor(-1);
+  }
+}
+
 }  // namespace
 
 Shape shape_of(const Model& model, const State& state) {
@@ -19,6 +34,7 @@ Shape shape_of(const Model& model, const State& state) {
   for (std::size_t m = 0; m < model.deck().members.size(); ++m)
     shape.members.push_back({.member = model.deck().members[m].name, .points = model.body().shape(m, state)});
   if (model.contacts() != nullptr) shape.contacts = contact_marks(*model.contacts(), state);
+  to_users_coordinates(model.frame(), shape);
   return shape;
 }
 
@@ -56,14 +72,16 @@ std::vector<WallShape> wall_shapes(const Model& model, double lambda) {
   const Eigen::AlignedBox2d box = reach(model);
   std::vector<WallShape> walls;
   for (const deck::Wall& wall : model.deck().walls) {
-    const std::vector<Vec2> line = obstacle_of(wall)->outline(box.min().x(), box.max().x(), lambda);
+    std::vector<Vec2> line = obstacle_of(wall)->outline(box.min().x(), box.max().x(), lambda);
     const auto inside = [&](const Vec2& point) { return box.contains(point); };
-    const auto first = std::find_if(line.begin(), line.end(), inside);
-    const auto last = std::find_if(line.rbegin(), line.rend(), inside).base();
+    auto first = std::find_if(line.begin(), line.end(), inside);
+    auto last = std::find_if(line.rbegin(), line.rend(), inside).base();
+    if (first == line.end() || last - first < 2) std::tie(first, last) = std::pair(line.begin(), line.end());
+    std::transform(first, last, first, [&](const Vec2& point) { return model.frame().place(point); });
     walls.push_back({.name = wall.name,
                      .side = wall.side,
                      .is_outline = wall.outline.has_value(),
-                     .line = first == line.end() || last - first < 2 ? line : std::vector<Vec2>(first, last),
+                     .line = {first, last},
                      .moves = !motion_of(wall).is_none()});
   }
   return walls;

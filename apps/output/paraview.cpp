@@ -134,18 +134,19 @@ std::vector<Surface> surfaces(const deck::Deck& deck, double lambda) {
 }
 
 // To the nearest wall in the member's way, of the nearer face where faces touch; `most` where there is none as near.
-double gap_at(const ShapePoint& point, const MemberMesh& mesh, const std::vector<Surface>& surfaces, double most) {
-  const Vec2 normal(-std::sin(point.angle), std::cos(point.angle));
+double gap_at(const Vec2& position, double angle, const MemberMesh& mesh, const std::vector<Surface>& surfaces,
+              double most) {
+  const Vec2 normal(-std::sin(angle), std::cos(angle));
   double least = most;
   for (const auto& [wall, obstacle, lambda] : surfaces) {
     if (!concerns(wall, mesh.name)) continue;
     const double half = wall.contact_surface == deck::ContactSurface::face ? 0.5 * mesh.height.value_or(0.0) : 0.0;
     if (wall.outline) {
-      least = std::min(least, obstacle->gap_slope(point.position, lambda).value - half);
+      least = std::min(least, obstacle->gap_slope(position, lambda).value - half);
       continue;
     }
     for (const double offset : {-half, half}) {
-      least = std::min(least, obstacle->gap_slope(point.position + offset * normal, lambda).value);
+      least = std::min(least, obstacle->gap_slope(position + offset * normal, lambda).value);
     }
   }
   return least;
@@ -155,10 +156,12 @@ double gap_at(const ShapePoint& point, const MemberMesh& mesh, const std::vector
 struct ContactArrays {
   std::vector<double> force{}, pressure{}, gap{};
 
+  // `surfaces`, `most`: in the frame.
   void add(const Shape& shape, const MemberShape& member, const MemberMesh& mesh, const std::vector<Surface>& surfaces,
-           double most) {
+           const deck::Frame& frame, double most) {
     const std::size_t first = gap.size();
-    for (const ShapePoint& point : member.points) gap.push_back(gap_at(point, mesh, surfaces, most));
+    for (const ShapePoint& point : member.points)
+      gap.push_back(frame.factor() * gap_at(frame.here(point.position), point.angle, mesh, surfaces, most));
     pressure.resize(gap.size(), 0.0);
     force.resize(3 * gap.size(), 0.0);
     for (const ContactMark& mark : shape.contacts) {
@@ -196,7 +199,8 @@ std::string shape_vtu(const Model& model, const RecordPoint& point, const Shape&
       moment.push_back(at.moment);
     }
     if (!walls.empty())
-      contact.add(shape, shape.members[m], model.structure().members()[m], walls, model.structure().length_scale());
+      contact.add(shape, shape.members[m], model.structure().members()[m], walls, model.frame(),
+                  model.structure().length_scale());
   }
 
   pugi::xml_document document;

@@ -91,7 +91,7 @@ std::string warning_of_units(const Model& model, const Record& record) {
       "and "
       "N/mm², or m, kN and kN/m²";
   if (record.points.size() < 2) return {};
-  const double size = model.structure().length_scale();
+  const double size = model.size();
   const double step = displacement_of_first_step(model, record) / size;
   if (step > large)
     return fmt::format("a first step of λ as the deck has it would move the structure by {:.1e} times its size", step) +

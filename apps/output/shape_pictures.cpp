@@ -426,16 +426,18 @@ std::vector<std::size_t> points_to_draw(const Record& record, std::size_t most) 
 
 Scene scene_of(const Model& model, const State& state) {
   const deck::Deck& deck = model.deck();
+  const deck::Frame& frame = model.frame();
   Scene scene{.shape = shape_of(model, state)};
   for (const deck::Load& load : deck.loads) {
-    const double factor = load.constant ? 1.0 : state.lambda;
-    if (const auto* spread = std::get_if<deck::MemberLoad>(&load.action)) add_load(model, *spread, factor, scene);
-    if (const auto* pressure = std::get_if<deck::Pressure>(&load.action)) add_load(deck, *pressure, factor, scene);
+    const double factor = load.constant ? 1.0 : state.lambda, by_length = factor * frame.factor(-1);
+    if (const auto* spread = std::get_if<deck::MemberLoad>(&load.action)) add_load(model, *spread, by_length, scene);
+    if (const auto* pressure = std::get_if<deck::Pressure>(&load.action)) add_load(deck, *pressure, by_length, scene);
     const auto* single = std::get_if<deck::PointLoad>(&load.action);
     const auto at = single == nullptr ? std::nullopt : position_of(deck, scene.shape, single->at);
     if (at)
-      scene.loads.push_back(
-          {.at = *at, .force = factor * Vec2(single->force.x, single->force.z), .moment = factor * single->moment});
+      scene.loads.push_back({.at = *at,
+                             .force = factor * Vec2(single->force.x, single->force.z),
+                             .moment = factor * frame.factor() * single->moment});
   }
   for (WallShape& wall : wall_shapes(model, state.lambda))
     if (wall.moves) scene.walls.push_back(std::move(wall));
@@ -474,7 +476,9 @@ DrawnScenes scenes_to_draw(const Model& model, const Record& record) {
 Setting setting_of(const Model& model) {
   std::vector<WallShape> walls = wall_shapes(model);
   std::erase_if(walls, [](const WallShape& wall) { return wall.moves; });
-  return {.walls = std::move(walls), .heights = section_heights(model.deck()), .members = drawn_members(model.deck())};
+  return {.walls = std::move(walls),
+          .heights = section_heights(model.whole_deck()),
+          .members = drawn_members(model.whole_deck())};
 }
 
 ShapePictures draw(const DrawnScenes& drawn, const Setting& setting) {

@@ -34,6 +34,8 @@ class CurveVerifier {
  public:
   CurveVerifier(const CurveSession& session, const StoredCurve& files)
       : description_(session.description()),
+        frame_(
+            deck::frame_of(deck::read_deck_text(description_.deck_text, description_.deck, description_.assignments))),
         curve_(session.tracing().curve()),
         rows_(csv_rows(files.curve_csv)),
         expected_rows_(csv_rows(curve_csv(curve_, description_.units))) {}
@@ -63,7 +65,8 @@ class CurveVerifier {
     std::string why = "its mesh is another one";
     try {
       model.emplace(deck::read_deck_text(description_.deck_text, description_.deck,
-                                         assignments_at(description_, curve_.key, point.key)));
+                                         assignments_at(description_, curve_.key, point.key)),
+                    frame_);
     } catch (const InputError& error) {
       why = first_message(error);
     }
@@ -92,7 +95,7 @@ class CurveVerifier {
     for (std::size_t k = 0; k < curve_.columns.size(); ++k) {
       const double value = model.monitors()[k].quantity->value(state);
       findings.compare("curve.csv matches the states", std::abs(point.monitors[k] - value),
-                       1e-12 * std::abs(value) + 1e-14 * (scales.length + scales.force),
+                       1e-12 * std::abs(value) + model.monitors()[k].factor * 1e-14 * (scales.length + scales.force),
                        "monitor " + curve_.columns[k].name);
     }
     check_event(at, point);
@@ -148,6 +151,7 @@ class CurveVerifier {
   }
 
   const RunDescription& description_;
+  deck::Frame frame_;
   EventCurve curve_;
   std::vector<std::vector<std::string>> rows_, expected_rows_;
   Verdict verdict_{};

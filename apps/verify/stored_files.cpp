@@ -137,7 +137,7 @@ void check_path_row(const Row& row, const RecordPoint& point, const PathExpectat
 
 // branch, step, lambda, wall, member, fraction, x, force, pressure
 void check_contact_rows(const std::vector<Row>& rows, std::size_t& next, const RecordPoint& point,
-                        const Touches& touches, double length, Findings& findings) {
+                        const Touches& touches, const Model& model, Findings& findings) {
   const std::string check = "contacts.csv matches the states";
   for (const Touch& touch : touches.all) {
     if (!touch.closed || !touch.listed) continue;
@@ -154,10 +154,12 @@ void check_contact_rows(const std::vector<Row>& rows, std::size_t& next, const R
     };
     near(2, point.state.lambda, 0.0, "lambda");
     near(5, touch.label.fraction, rounding(1.0), "fraction");
-    near(6, touch.place.x(), rounding(length), "x");
+    const double x = model.frame().place(touch.place).x();
+    near(6, x, rounding(std::max(model.size(), std::abs(x))), "x");
     near(7, touch.force, rounding(std::abs(touch.force)), "force");
     if (const double tributary = touch.label.tributary; tributary > 0.0)
-      near(8, touch.force / tributary, rounding(std::abs(touch.force / tributary)), "pressure");
+      near(8, touch.force / (model.frame().factor() * tributary),
+           rounding(std::abs(touch.force / (model.frame().factor() * tributary))), "pressure");
     else
       expect_same(check, row[8], "", "pressure of " + name, findings);
   }
@@ -207,7 +209,6 @@ void check_monitors(const Json& monitors, const Record& record, const RecordPoin
 
 // Where a contact that is named stands in the state at all, it is where it is said to be, and touches.
 void check_named_contacts(const Json& contacts, const Model& model, const Touches& touches, Findings& findings) {
-  const double length = model.structure().length_scale();
   for (const Json& contact : contacts) {
     const std::string wall = text(contact, "wall"), member = text(contact, "member");
     const double fraction = number(part(contact, "fraction")), x = number(part(contact, "x"));
@@ -219,7 +220,8 @@ void check_named_contacts(const Json& contacts, const Model& model, const Touche
     const std::string name = wall + " at " + member + ":" + round_trip(fraction);
     findings.require(events_check, model.sliding() != nullptr || found != touches.all.end(), "no contact is " + name);
     if (found == touches.all.end()) continue;
-    findings.compare(events_check, std::abs(x - found->place.x()), 1e-9 * length, "x of " + name);
+    findings.compare(events_check, std::abs(x - model.frame().place(found->place).x()), 1e-9 * model.size(),
+                     "x of " + name);
   }
 }
 

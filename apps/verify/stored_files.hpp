@@ -32,7 +32,7 @@ void check_path_row(const std::vector<std::string>& row, const RecordPoint& poin
 
 /// The rows of contacts.csv that belong to a point, from `next` on, which moves behind them.
 void check_contact_rows(const std::vector<std::vector<std::string>>& rows, std::size_t& next, const RecordPoint& point,
-                        const Touches& touches, double length, Findings& findings);
+                        const Touches& touches, const Model& model, Findings& findings);
 
 /// events.json against the points; gives the events that belong to one.
 std::vector<ListedEvent> check_events(const std::string& text, const Record& record, const Model& model,

@@ -64,13 +64,14 @@ void add_monitors(const PointAtHand& at, PathExpectation& expected, Findings& fi
     }
     double value = column.quantity->value(at.point.state);
     if (const deck::Monitor* monitor = deck::find(model.deck().monitors, column.name)) {
-      if (const auto own = own_value(at, *monitor)) value = monitor->sign * *own;
+      if (const auto own = own_value(at, *monitor)) value = monitor->sign * column.factor * *own;
       if (is_greatest(column.component))
-        check_greatest(at, *monitor, std::abs(value), roundoff_of_force(model, column.name, column.component),
-                       findings);
+        check_greatest(at, *monitor, std::abs(value) / column.factor,
+                       roundoff_of_force(model, column.name, column.component), findings);
     }
     expected.monitors.push_back(value);
-    expected.allowed.push_back(std::isfinite(value) ? 1e-12 * std::abs(value) + roundoff_of(column, model) : 0.0);
+    expected.allowed.push_back(
+        std::isfinite(value) ? 1e-12 * std::abs(value) + column.factor * roundoff_of(column, model) : 0.0);
   }
 }
 
@@ -192,6 +193,8 @@ class Verifier {
       check_equilibrium(at, findings);
       check_point_loads(at, findings);
       expected.energy = energy(at);
+      expected.energy->value *= model.frame().factor();
+      expected.energy->magnitude *= model.frame().factor();
       const ZeroEigenvalue zero = zero_eigenvalue(model, record_, point);
       expected.unstable = unstable_range(at, zero);
       if (!expected.unstable) ++uncounted_;
@@ -204,7 +207,7 @@ class Verifier {
       check_path_row(path_rows_[number], point, expected, findings);
     }
     findings.at("contacts.csv", point.branch, point.step);
-    check_contact_rows(contact_rows_, next_contact_, point, at.touches, scales_.length, findings);
+    check_contact_rows(contact_rows_, next_contact_, point, at.touches, model, findings);
     return true;
   }
 

@@ -11,6 +11,7 @@
 #include "continuation/trace_options.hpp"
 #include "core/error.hpp"
 #include "elements/structure.hpp"
+#include "model/deck/frame.hpp"
 #include "model/deck/values.hpp"
 #include "model/deck/walls.hpp"
 
@@ -478,6 +479,7 @@ struct Stage {
 
 struct Deck {
   Source source{};
+  Frame frame{};  ///< in which all coordinates and lengths are but those of monitors; the user's own unless in_frame()
   std::string title{};
   std::string description{};
   Units units{};

@@ -24,12 +24,17 @@ namespace arcwall::deck {
 
 /// What a number is measured in: powers of the deck's units.
 struct Dimension {
+  enum class Axis { none, x, z, both };
+
   int force = 0, length = 0;
+  Axis axis = Axis::none;  ///< of a coordinate, not of a length
 };
 
 namespace unit {
 inline constexpr Dimension none{}, force{1, 0}, moment{1, 1}, energy{1, 1}, line_load{1, -1}, stress{1, -2};
 inline constexpr Dimension length{0, 1}, area{0, 2}, second_moment{0, 4}, curvature{0, -1};
+inline constexpr Dimension place{0, 1, Dimension::Axis::both}, place_x{0, 1, Dimension::Axis::x},
+    place_z{0, 1, Dimension::Axis::z};
 }  // namespace unit
 
 /// A key of a table. One that is written as a plain text must be there.

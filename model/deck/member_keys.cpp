@@ -101,7 +101,7 @@ void material_and_section_keys(Keys& keys, const Deck& deck, Member& member) {
 
 void arc_keys(Keys& keys, Arc& arc, const std::optional<Ends>& ends) {
   constexpr double tolerance = 1e-12;  // of the chord: below, the radius is beyond the resolution of the coordinates
-  const bool right = keys.vector(optional("via", "straight"), arc.via, unit::length,
+  const bool right = keys.vector(optional("via", "straight"), arc.via, unit::place,
                                  "the axis is the circular arc from `from` through this point to `to`");
   if (!right || !ends) return;
   const double chord = distance(ends->from, ends->to);
@@ -222,8 +222,8 @@ void member_keys(Keys& keys, Member& member, const Deck& deck, const PointsByNam
 }  // namespace
 
 bool curve_keys(Keys& keys, std::vector<double>& x, std::vector<double>& z) {
-  const bool has_x = keys.numbers("x", x, unit::length, "");
-  const bool has_z = keys.numbers("z", z, unit::length, "as many");
+  const bool has_x = keys.numbers("x", x, unit::place_x, "");
+  const bool has_z = keys.numbers("z", z, unit::place_z, "as many");
   if (!has_x || !has_z) return false;
   const std::string counts = std::to_string(x.size()) + " x and " + std::to_string(z.size()) + " z";
   if (x.size() != z.size()) {

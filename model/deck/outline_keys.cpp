@@ -16,19 +16,19 @@ constexpr double least_distance = 1e-9;  // between points that follow each othe
 void structure_key(Keys& keys, Keep& keep) { keys.word(optional("structure"), keep, keep_words, "outside or inside"); }
 
 void half_plane_keys(Keys& keys, HalfPlaneOutline& plane) {
-  keys.vector("point", plane.point, unit::length, "");
+  keys.vector("point", plane.point, unit::place, "");
   if (keys.vector("normal", plane.normal, unit::none, "") && plane.normal.x == 0.0 && plane.normal.z == 0.0)
     keys.report("normal", "[0, 0] has no direction", "give the direction in which the structure is, as [0.0, 1.0]");
 }
 
 void circle_outline_keys(Keys& keys, CircleOutline& circle) {
-  keys.vector("centre", circle.centre, unit::length, "");
+  keys.vector("centre", circle.centre, unit::place, "");
   keys.number("radius", circle.radius, unit::length, positive, "");
   structure_key(keys, circle.keep);
 }
 
 void ellipse_keys(Keys& keys, EllipseOutline& ellipse) {
-  keys.vector("centre", ellipse.centre, unit::length, "");
+  keys.vector("centre", ellipse.centre, unit::place, "");
   if (keys.vector("axes", ellipse.axes, unit::length, "half of its axes") &&
       !(ellipse.axes.x > 0.0 && ellipse.axes.z > 0.0))
     keys.report("axes", "half axes must be greater than 0", "give both, as [2.0, 1.0]");

@@ -75,7 +75,7 @@ void section_keys(Keys& keys, Section& section) {
 
 bool point_key(Keys& keys, const Key& key, Point& point) {
   if (!is_name(key.name)) keys.report_key(key, "is no name", "use letters, digits, _ and - only");
-  return keys.vector(key, point.at, unit::length, "`[x, z]`");
+  return keys.vector(key, point.at, unit::place, "`[x, z]`");
 }
 
 }  // namespace

@@ -33,19 +33,19 @@ void spline_keys(Keys& keys, SplineProfile& profile) {
 
 void profile_keys(Keys& keys, Wall& wall) {
   const Option<FlatProfile> flat{
-      "flat", "z", [&](FlatProfile& profile) { keys.number("z", profile.z, unit::length, any_number, ""); }};
+      "flat", "z", [&](FlatProfile& profile) { keys.number("z", profile.z, unit::place_z, any_number, ""); }};
   const Option<LineProfile> line{"line", "z + slope·x", [&](LineProfile& profile) {
                                    keys.number("z", profile.z, unit::length, any_number, "");
                                    keys.number("slope", profile.slope, unit::none, any_number, "");
                                  }};
   const Option<CircleProfile> circle{"circle", "the upper arc for `\"below\"`, the lower one for `\"above\"`",
                                      [&](CircleProfile& profile) {
-                                       keys.vector("centre", profile.centre, unit::length, "");
+                                       keys.vector("centre", profile.centre, unit::place, "");
                                        keys.number("radius", profile.radius, unit::length, positive, "");
                                      }};
   const Option<ParabolaProfile> parabola{"parabola", "apex.z + ½ curvature (x − apex.x)²",
                                          [&](ParabolaProfile& profile) {
-                                           keys.vector("apex", profile.apex, unit::length, "");
+                                           keys.vector("apex", profile.apex, unit::place, "");
                                            keys.number("curvature", profile.curvature, unit::curvature, any_number, "");
                                          }};
   const Option<SplineProfile> spline{
@@ -71,7 +71,7 @@ void motion_keys(Keys& keys, WallMotion& motion) {
         of.number(optional("x"), motion.x, unit::length, any_number, "");
         of.number(optional("z"), motion.z, unit::length, any_number, "");
         of.number(optional("rotation"), motion.rotation, unit::none, any_number, "");
-        of.vector(optional("about"), motion.about, unit::length, "");
+        of.vector(optional("about"), motion.about, unit::place, "");
         if (of.reads() && !of.has("x") && !of.has("z") && !of.has("rotation"))
           keys.report("motion", "the wall does not move", "give at least one of x, z and rotation");
       },
