@@ -1,9 +1,12 @@
 // Steps are as long as the structure's motion allows, whatever λ is and however it compares with what it was at first.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "core/root_find.hpp"
 #include "core/types.hpp"
@@ -69,6 +72,48 @@ struct Catenary {
   }
 };
 
+// Two leaves clamped side by side, the upper one longer; springs that press alone lie between them. The load is 1000 λ.
+std::string stacked_leaves() {
+  std::string points, members, springs;
+  for (int i = 0; i <= 8; ++i) {
+    points += fmt::format("a{0} = [{1}.0, 0.0]\n", i, 75 * i);
+    if (i <= 6) points += fmt::format("b{0} = [{1}.0, -8.0]\n", i, 75 * i);
+    if (i == 0) continue;
+    for (const char leaf : {'a', 'b'})
+      if (leaf == 'a' || i <= 6)
+        members += fmt::format(
+            "{0}{1} = {{ from = \"{0}{2}\", to = \"{0}{1}\", theory = \"elastica\", material = \"steel\", section = "
+            "\"leaf\", elements = 2 }}\n",
+            leaf, i, i - 1);
+    if (i <= 6)
+      springs += fmt::format(
+          "[[spring]]\nname = \"c{0}\"\nbetween = [\"a{0}\", \"b{0}\"]\nlaw = {{ direction = \"z\", displacement = "
+          "[-100.0, 0.0, 0.001, 10.0], force = [0.0, 0.0, 10.0, 1.0e5] }}\n",
+          i);
+  }
+  return "title = \"Two stacked leaves\"\nmaterial.steel = { E = 2.06e5 }\n"
+         "section.leaf = { shape = \"rectangle\", width = 60.0, height = 8.0 }\n"
+         "support = { a0 = [\"x\", \"z\", \"rotation\"], b0 = [\"x\", \"z\", \"rotation\"] }\n"
+         "load = [{ at = \"a8\", force = [0.0, -1000.0] }]\n"
+         "path = { stop.lambda = [-0.1, 3.0], output_at.lambda = [0.01] }\n"
+         "monitor = [{ name = \"end\", spring = \"c6\", component = \"force-z\" }]\n[point]\n" +
+         points + "[member]\n" + members + springs;
+}
+
+constexpr const char* pulled_switch = R"toml(
+title = "Cantilever switch that closes, lies flat on its stop, and is pulled off"
+material.si = { E = 1.6e5 }
+section.beam = { shape = "rectangle", width = 30.0, height = 2.0 }
+point = { anchor = [0.0, 0.0], tip = [300.0, 0.0] }
+support.anchor = ["x", "z", "rotation"]
+member.beam = { from = "anchor", to = "tip", theory = "elastica", material = "si", section = "beam", elements = 40 }
+wall = [{ name = "stop", side = "below", contact_surface = "axis", profile = { type = "flat", z = -3.0 } }]
+load = [{ on = "beam", distributed = [0.0, -1.0] }, { at = "tip", force = [0.0, 1.0] }]
+stage = [{ name = "close", drives = ["load.0"], step = 0.005, stop = { lambda = [-0.1, 1.0] } },
+         { name = "pull", drives = ["load.1"], step = 0.1, stop = { lambda = [-1.0, 1000.0], force = [0.001, 1.0e6] } }]
+monitor = [{ name = "tip", at = "tip", component = "z" }, { name = "force", wall = "stop", component = "force-z" }]
+)toml";
+
 // Of the elastica whose ends come together by a part δ of its length, δ = 2 (1 − E(k)/K(k)).
 double modulus_at(double shortening) {
   const auto excess = [&](double k) -> std::optional<double> {
@@ -101,6 +146,42 @@ TEST(HangingRope, ComesToHangInStepsOfItsMotion) {
   const double H = rope.force(950.0);
   EXPECT_NEAR(last.monitors[0], -rope.sag(H), 1e-4 * rope.sag(H));
   EXPECT_NEAR(last.monitors[1], H, 1e-4 * H);
+}
+
+// The springs' laws have kinks where the leaves stand at rest. In small slopes the shorter leaf bears the load's end by
+// F (3L − a) a²/6EI over 2a³/3EI and the spring's 10⁻⁴; the others are open.
+TEST(StackedLeaves, AreBentInStepsOfTheirMotion) {
+  const Session run = test::traced(stacked_leaves());
+  const Record& record = run.record();
+  EXPECT_LE(record.points.size(), 100U);
+  EXPECT_EQ(record.points.back().lambda, 3.0);
+  const double EI = 2.06e5 * 60.0 * 8.0 * 8.0 * 8.0 / 12.0, L = 600.0, a = 450.0;
+  const double share = (3.0 * L - a) * a * a / (6.0 * EI) / (2.0 * a * a * a / (3.0 * EI) + 1e-4);
+  const auto at = std::find_if(record.points.begin(), record.points.end(),
+                               [](const RecordPoint& point) { return point.lambda == 0.01; });
+  ASSERT_NE(at, record.points.end());
+  EXPECT_NEAR(at->monitors[0], 10.0 * share, 1e-4 * 10.0 * share);
+}
+
+// At the end the beam touches its stop without force: the force at its tip is the one with which, in small slopes, it
+// reaches −3 under its load and no farther. Its slopes are up to 0.13.
+TEST(PulledSwitch, PeelsOffInStepsOfItsMotion) {
+  const Session run = test::traced(pulled_switch);
+  const Record& record = run.record();
+  EXPECT_LE(record.points.size(), 100U);
+  EXPECT_EQ(record.stage_of(record.points.back().branch), "pull");
+  EXPECT_NEAR(record.points.back().monitors[1], 0.001, 1e-9);
+  constexpr double EI = 1.6e5 * 20.0, L = 300.0;
+  const auto lowest = [](double force) {
+    double least = 0.0;
+    for (double x = 0.0; x <= L; x += 0.01 * L)
+      least = std::min(least, force * x * x * (3.0 * L - x) / (6.0 * EI) -
+                                  x * x * (x * x - 4.0 * L * x + 6.0 * L * L) / (24.0 * EI));
+    return least;
+  };
+  const auto excess = [&](double force) -> std::optional<double> { return lowest(force) + 3.0; };
+  const double small_slopes = bracketed_root(excess, 100.0, *excess(100.0), 150.0, *excess(150.0), 1e-10)->at;
+  EXPECT_NEAR(record.points.back().lambda, small_slopes, 0.13 * 0.13 * small_slopes);
 }
 
 }  // namespace arcwall::steps_of_slender_structures_test
