@@ -85,7 +85,7 @@ void write_files(const OutputFolder& folder, const Session& run, const CallOptio
   const Record& record = run.record();
   const RunDescription& description = run.description();
   const DrawnScenes drawn = pictures ? scenes_to_draw(run.model(), record) : DrawnScenes();
-  FileSet files(folder, options.scratch ? Flush::left_to_the_system : Flush::to_the_disk);
+  FileSet files(folder);
   files.write("path.csv", path_csv(record, description.units));
   if (record.has_walls) files.write("contacts.csv", contacts_csv(record, description.units));
   files.write("events.json", to_text(events_json(record), JsonLayout::lines));

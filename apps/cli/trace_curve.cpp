@@ -34,7 +34,7 @@ void write_files(const CurveSession& session, const EventCurve& curve, const Out
                  const CallOptions& options) {
   const bool pictures = options.pictures == CallOptions::Pictures::written;
   const RunDescription& of = session.description();
-  FileSet files(folder, options.scratch ? Flush::left_to_the_system : Flush::to_the_disk);
+  FileSet files(folder);
   const std::vector<LoadText> loads = driven_by_lambda(session.deck());
   for (const auto& [name, content] : curve_files(curve, loads, of.units, of))
     if (pictures || name != "report.html") files.write(name, content);

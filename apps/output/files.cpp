@@ -267,11 +267,9 @@ void OutputFolder::write_durably(const std::string& name, std::string_view text)
   arcwall::write_durably(folder_ / name, text);
 }
 
-// After a crash of the machine the new names must not stand for data that never went out.
 void FileSet::write(const std::string& name, const Pieces& text) {
   StagedFile& file = files_.emplace_back(folder_ / name);
   file.write(text);
-  if (flush_ == Flush::to_the_disk) file.flush_to_disk();
   file.close();
 }
 

@@ -121,15 +121,12 @@ class OutputFolder {
   bool made_ = false;
 };
 
-/// Whether files are on the disk before they are put in place, whatever happens to the machine then.
-enum class Flush { to_the_disk, left_to_the_system };
-
 /// Files of a folder that belong together: none is put in place before all are written, so a disk that is full leaves
-/// those of an earlier run as they were.
+/// those of an earlier run as they were. A power cut may lose them; what they show is in the checkpoint, which
+/// write_durably() has written before.
 class FileSet {
  public:
-  explicit FileSet(const OutputFolder& folder, Flush flush = Flush::to_the_disk)
-      : folder_(folder.path()), flush_(flush) {}
+  explicit FileSet(const OutputFolder& folder) : folder_(folder.path()) {}
 
   /// Throws OutputError.
   void write(const std::string& name, std::string_view text) { write(name, Pieces{text}); }
@@ -140,7 +137,6 @@ class FileSet {
 
  private:
   std::filesystem::path folder_;
-  Flush flush_;
   std::list<StagedFile> files_{};
 };
 
