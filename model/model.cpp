@@ -79,20 +79,24 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
       stage_(stage),
       progress_(progress ? std::move(*progress) : things_to_drive(*whole_deck_)),
       deck_(in_frame(deck_of_stage(whole_deck_, static_cast<std::size_t>(stage), progress_), frame)) {
-  DeckProblems problems(deck_->source);
+  DeckProblems problems(whole_deck_->source);
   StructureOfDeck described = describe_structure(*deck_, problems);
   problems.raise();
-  if (hold_loose_bodies()) described = describe_structure(*deck_, problems);
+  DeckProblems mechanism(whole_deck_->source);
+  check_mechanism(*deck_, mechanism);
+  if (!mechanism.empty()) {
+    if (hold_loose_bodies()) described = describe_structure(*deck_, problems);
+    check_mechanism(*deck_, problems);
+    problems.raise();
+  }
   hold_between_walls(*deck_, described.builder);
-  check_mechanism(*deck_, problems);
-  problems.raise();
 
   structure_ = described.builder.build();
   if (!moves_something(*structure_) && (structure_->size({}) == 0 || !moves_walls(*deck_)))
     report_nothing_moves(*whole_deck_, static_cast<std::size_t>(stage_), structure_->size({}) == 0, problems);
   if (takes_increments(*deck_, *structure_, problems))
     incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
-  DeckProblems not_at_rest(deck_->source);  // where a stage begins the structure is no longer there
+  DeckProblems not_at_rest(whole_deck_->source);  // where a stage begins the structure is no longer there
   if (may_slide(*deck_, described.builder)) sliding_structure_ = sliding_structure(described.builder, false);
   const PinchedPlaces pinched = sliding_structure_ ? pinched_places(*deck_, *sliding_structure_) : PinchedPlaces{};
   auto candidates = contact_candidates(*deck_, *structure_, pinched, stage_ == 0 ? problems : not_at_rest);
@@ -172,9 +176,6 @@ std::shared_ptr<const Observable> Model::quantity(const std::string& name) const
 
 // Springs for what nothing but contact holds are part of the deck that is traced.
 bool Model::hold_loose_bodies() {
-  DeckProblems mechanism(deck_->source);
-  check_mechanism(*deck_, mechanism);
-  if (mechanism.empty()) return false;
   loose_holds_ = loose_holds(*deck_);
   const std::vector<deck::Spring> springs = loose_holds_.springs();
   deck::Deck held = *deck_;

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <climits>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <system_error>
 #include <utility>
 
@@ -70,15 +69,18 @@ constexpr std::array output_names{"branches.json",    "path.csv",        "contac
                                   "shapes.pvd",       "steps.jsonl",     "checkpoint",   "probe",
                                   "convergence.json", "convergence.txt", "curve.json",   "curve.csv"};
 
+bool is_whole_number(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 // Whether the name is that of a file that a killed process was writing, see StagedFile, or of its lock.
 bool is_name_of_leftover(const std::string& name) {
-  static const std::regex hidden(R"(\.(.+)\.[0-9]+)"), shape(R"(([0-9]+|walls)\.vtu)");
-  std::smatch parts;
   if (name == folder_lock_name) return true;
-  if (!std::regex_match(name, parts, hidden)) return false;
-  const std::string target = parts[1];
+  const std::size_t dot = name.rfind('.');
+  if (name.front() != '.' || dot < 2 || !is_whole_number(name.substr(dot + 1))) return false;
+  const std::string target = name.substr(1, dot - 1), stem = target.substr(0, target.find('.'));
   return std::find(output_names.begin(), output_names.end(), target) != output_names.end() ||
-         std::regex_match(target, shape);
+         (target == stem + ".vtu" && (stem == "walls" || is_whole_number(stem)));
 }
 
 bool is_leftover(const fs::directory_entry& entry) {
@@ -179,7 +181,7 @@ void write_durably(const fs::path& file, std::string_view text) {
 void require_other_than_input(const fs::path& folder, const fs::path& input) {
   for (const char* name : output_names) {
     std::error_code ignored;
-    if (fs::equivalent(folder / name, input, ignored))
+    if (fs::exists(folder / name, ignored) && fs::equivalent(folder / name, input, ignored))
       throw InputError({Diagnostic{.file = input.string(),
                                    .message = "would be written over by " + (folder / name).string(),
                                    .cure = "name another folder with --out"}});

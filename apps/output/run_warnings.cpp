@@ -55,12 +55,12 @@ double greatest_displacement(const Model& model, const Record& record, const Rec
   return greatest;
 }
 
-// At some of the points of the paths.
-double greatest_displacement(const Model& model, const Record& record) {
+// At some of the points of the paths, from the last one back until it is `enough`.
+double greatest_displacement(const Model& model, const Record& record, double enough) {
   constexpr std::size_t most = 20;
   const std::size_t count = record.points.size(), looked_at = std::min(count, most);
   double greatest = 0.0;
-  for (std::size_t i = 0; i < looked_at; ++i)
+  for (std::size_t i = looked_at; i-- > 0 && greatest < enough;)
     greatest =
         std::max(greatest, greatest_displacement(model, record, record.points[i * (count - 1) / (looked_at - 1)]));
   return greatest;
@@ -97,7 +97,7 @@ std::string warning_of_units(const Model& model, const Record& record) {
     return fmt::format("a first step of λ as the deck has it would move the structure by {:.1e} times its size", step) +
            advice;
   if (!has_ended_by_itself(record)) return {};
-  const double part = greatest_displacement(model, record) / size;
+  const double part = greatest_displacement(model, record, small * size) / size;
   return part >= small
              ? ""
              : fmt::format("the structure has moved by no more than {:.1e} times its size, all along", part) + advice;

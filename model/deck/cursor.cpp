@@ -150,7 +150,9 @@ const Value* Cursor::find(std::string_view key, Presence presence) {
 const Value* Cursor::find_of_kind(std::string_view key, Presence presence, Value::Kind kind,
                                   const std::string& wanted) {
   const Value* found = find(key, presence);
-  return found != nullptr && accept(*found, kind, path_of(key), wanted) ? found : nullptr;
+  if (found == nullptr || found->kind == kind) return found;
+  accept(*found, kind, path_of(key), wanted);
+  return nullptr;
 }
 
 bool Cursor::accept(const Value& value, Value::Kind kind, const std::string& path, const std::string& wanted) {
@@ -160,6 +162,8 @@ bool Cursor::accept(const Value& value, Value::Kind kind, const std::string& pat
 
 std::optional<double> Cursor::number_in(const Value& value, const std::string& path, const Requirement& requirement,
                                         const std::string& wanted) {
+  const bool is_number = value.kind == Value::Kind::integer || value.kind == Value::Kind::number;
+  if (is_number && std::isfinite(value.number) && requirement.holds(value.number)) return value.number;
   std::string cure = "give " + wanted;
   const std::string number_meant = number_in_quotes(value);
   if (!number_meant.empty()) cure = "write " + number_meant + " without quotes";
@@ -168,7 +172,7 @@ std::optional<double> Cursor::number_in(const Value& value, const std::string& p
   const std::optional<double> number = is_formula ? arithmetic_->number(value, path, findings_) : value.number;
   if (!number) return std::nullopt;
   const std::string text = is_formula ? shown(value) + " = " + round_trip(*number) : shown(value);
-  if (!is_formula && value.kind != Value::Kind::integer && value.kind != Value::Kind::number) {
+  if (!is_formula && !is_number) {
     findings_.add(value.position, path, text + " is of the wrong type", cure);
   } else if (!std::isfinite(*number)) {
     findings_.add(value.position, path, text + " is not a finite number", cure);
