@@ -347,12 +347,14 @@ double first_length(const SlidingSetting& setting, const SlidingState& at, const
 }
 
 // Where the wall is straight and the body lies on it by itself, the part between is flat; else pressure holds it, or it
-// arches off the wall. Half pressed ones are begun longer, and come first only where the pressure changes its sign at
-// once: far from the change a longer one may be on a part of the path that is still to come. Last comes a shorter one.
-// At a plane of symmetry the pressure is as great before it as behind it, and has one sign there.
+// arches off the wall. Where an axis that is not straight lies on a wall, or the pressure grows with the zone, longer
+// pressed ones hold, shorter ones first: far from the change a longer one may be on a part of the path that is still to
+// come, so that it must hold at a quarter of its length, too. At a plane of symmetry the pressure is as great before it
+// as behind it, and has one sign there.
 std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points,
                                 const Planes& planes) {
-  constexpr double shorter = 0.6;
+  constexpr double shorter = 0.6, sure = 0.25;
+  constexpr std::array factors{1.0, 2.0, 4.0, 8.0, 16.0};
   const std::vector<HeldAxis> held = held_axes(setting, at, points, planes);
   const double length = first_length(setting, at, points, held.front());
   const auto is_all = [&](const auto& holds) { return std::all_of(held.begin(), held.end(), holds); };
@@ -360,26 +362,32 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
     return holding_pressure(setting, at, axis) < 0.0 && obstacle_curvature(setting, at, axis.touch) == 0.0;
   };
   std::vector<Transition> transitions;
-  const auto try_half_pressed = [&] {
+  const auto try_half_pressed = [&](double factor) {
     if (!planes.empty()) return;
-    for (const double factor : {2.0, 4.0})
-      if (auto transition = spread_half_pressed(setting, at, points, factor * length))
-        transitions.push_back(std::move(*transition));
+    if (auto transition = spread_half_pressed(setting, at, points, factor * length))
+      transitions.push_back(std::move(*transition));
   };
-  const auto spread_to = [&](Span between, double by) {
-    transitions.push_back(spread(setting, at, points, planes, between, by));
+  const auto spread_to = [&](Span between, double factor) {
+    transitions.push_back(spread(setting, at, points, planes, between, factor * length));
   };
   const bool changes_at_once = planes.empty() && std::all_of(points.begin(), points.end(), [&](std::size_t k) {
                                  return pressure_changes_sign(setting, at, k, length);
                                });
   const bool all_flat = is_all([&](const HeldAxis& axis) { return lies_by_itself(setting, at, axis); });
   const bool all_lift_off = is_all(lifts_off_straight);
-  if (changes_at_once) try_half_pressed();
-  spread_to(all_flat ? Span::flat : all_lift_off ? Span::free : Span::pressed, length);
-  if (!changes_at_once) try_half_pressed();
+  if (changes_at_once) std::for_each(factors.begin(), factors.end(), try_half_pressed);
+  for (const double factor : factors) {
+    if (!changes_at_once) try_half_pressed(factor);
+    if (factor == 1.0) {
+      spread_to(all_flat ? Span::flat : all_lift_off ? Span::free : Span::pressed, factor);
+    } else if (!all_flat && !all_lift_off) {
+      spread_to(Span::pressed, factor);
+      transitions.back().least = std::max(1.0, sure * factor) * length;
+    }
+  }
   if (all_flat || all_lift_off) return transitions;
-  spread_to(Span::free, length);
-  spread_to(Span::pressed, shorter * length);
+  spread_to(Span::free, 1.0);
+  spread_to(Span::pressed, shorter);
   return transitions;
 }
 
