@@ -94,8 +94,9 @@ struct Watched {
 
 // Whether the contact of an end on a plane of symmetry is at a least gap of the whole body, which it follows then.
 bool watches_least_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  if (!is_tangent_at_plane(setting, at, end)) return false;
   const auto contact = setting.number_of_end({.strand = end.strand, .last = end.last}, end.obstacle);
-  if (!contact || !is_tangent_at_plane(setting, at, end)) return false;
+  if (!contact) return false;
   return at.is_closed(at.layout.points().size() + *contact) || end_curvature_gap(setting, at, end) > 0.0;
 }
 
