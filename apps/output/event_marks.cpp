@@ -48,7 +48,7 @@ EventMark mark_of(EventKind kind) {
     case EventKind::turning_point:
       return {.symbol = "square", .outline = polygon(4, 0.5, {1.1}), .filled = filled};
     case EventKind::value_crossing:
-      return {.symbol = "square", .outline = polygon(4, 0.5, {1.1}), .filled = !filled};
+      return {.symbol = "diamond-tall", .outline = polygon(4, 0.0, {0.8, 1.3}), .filled = filled};
     case EventKind::branch_point:
       return {.symbol = "star", .outline = polygon(10, 1.0, {1.4, 0.55}), .filled = filled};
     case EventKind::user:

@@ -29,7 +29,7 @@ MARKS = {
     "limit-point": ("o", 6, True),
     "contact-limit-point": ("h", 10, False),
     "turning-point": ("s", 6, True),
-    "value-crossing": ("s", 6, False),
+    "value-crossing": ("D", 5, True),
     "branch-point": ("*", 10, True),
     "user": ("p", 7, True),
 }
