@@ -97,8 +97,8 @@ class EventCurve:
     def columns(self) -> list[str]:
         """Names of the columns.
 
-        These are ``arc``, ``key``, ``lambda``, the monitors, ``slope``, ``unstable_before``, ``unstable_after`` and
-        ``contacts``.
+        These are ``arc``, ``key``, ``lambda``, the monitors, ``slope``, ``unstable_before``, ``unstable_after``,
+        ``contacts``, and ``slope-NAME`` for each monitor.
         """
         return list(self._columns)
 

@@ -88,6 +88,8 @@ py::list columns(const EventCurve& curve) {
   add("unstable_before", "", column<double>(curve, [](P at) { return or_nan(at.unstable_before); }));
   add("unstable_after", "", column<double>(curve, [](P at) { return or_nan(at.unstable_after); }));
   add("contacts", "", column<std::int64_t>(curve, [](P at) { return at.contacts; }));
+  for (std::size_t i = 0; i < curve.columns.size(); ++i)
+    add("slope-" + curve.columns[i].name, "", column<double>(curve, [i](P at) { return or_nan(at.slopes[i]); }));
   return list;
 }
 
