@@ -162,14 +162,14 @@ void expect_agreement(const std::string& deck, const std::vector<Number>& number
   const auto events = located(traced);
   ASSERT_FALSE(events.empty());
   for (std::size_t n = 0; n < numbers.size(); ++n) {
-    const double value = events.front().sensitivity.at(n).value, h = numbers[n].step;
+    const double value = events.front().sensitivity.at(n).value, step = numbers[n].step;
     std::vector<std::vector<double>> expected(events.size(), std::vector<double>(events[0].monitors.size(), 0.0));
     for (const auto& [offset, weight] : {std::pair(-2, 1.0), {-1, -8.0}, {1, 8.0}, {2, -1.0}}) {
-      const auto other = located(TracedDeck(deck, {fmt::format("{}={:.17g}", numbers[n].key, value + offset * h)}));
+      const auto other = located(TracedDeck(deck, {fmt::format("{}={:.17g}", numbers[n].key, value + offset * step)}));
       ASSERT_EQ(other.size(), events.size());
       for (std::size_t i = 0; i < events.size(); ++i)
         for (std::size_t m = 0; m < expected[i].size(); ++m)
-          expected[i][m] += weight / (12.0 * h) * other[i].monitors[m];
+          expected[i][m] += weight / (12.0 * step) * other[i].monitors[m];
     }
     for (std::size_t i = 0; i < events.size(); ++i) {
       const RecordSensitivity& found = events[i].sensitivity[n];

@@ -338,7 +338,7 @@ path = { step = 0.2, output_at = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lam
   expect(with(monitor("g", "at = \"beam:0.5\"\nwall = \"v\"", "gap"), far_wall),
          {"monitor.0.wall", "\"v\" is not a wall of this deck"});
   expect(with(monitor("g", "at = \"beam:0.5\"\nwall = \"w\"", "z"), far_wall),
-         {"monitor.0.component", "component = \"gap\""});
+         {"monitor.0.component", "give gap, force-x or force-z"});
   expect(with(monitor("g", "at = \"beam:0.5\"", "gap"), far_wall),
          {"monitor.0.component", "gap belongs to a place and a wall"});
   // It is least where one place takes over from another, in a kink: no event has derivatives there.

@@ -238,7 +238,7 @@ TEST_P(SymmetryPlanes, AHalfModelHasTheEventsOfTheWhole) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Problems, SymmetryPlanes, testing::ValuesIn(problems()),
-                         [](const auto& info) { return "Problem" + std::to_string(info.index); });
+                         [](const auto& problem) { return "Problem" + std::to_string(problem.index); });
 
 // A ring between two plates, by half of it and by a quarter; turned, the plates are upright and come from the sides.
 std::string ring(bool turned, Model model) {

@@ -59,7 +59,7 @@ def test_keys_of_other_types_are_refused(channel):
 
 
 def test_values_that_are_no_numbers_are_diagnosed(channel):
-    for value in (float("nan"), float("inf"), -1.0, "2", [1.0], True, 10**30):
+    for value in (float("nan"), float("inf"), -1.0, "two", [1.0], True, 10**30):
         deck = channel.copy()
         try:
             deck["material.steel.E"] = value

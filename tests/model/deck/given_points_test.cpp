@@ -179,7 +179,9 @@ TEST(Smoothing, OfACircleWithNoiseIsACircle) {
       line.emplace_back(a[0], b[0]);
       EXPECT_NEAR(line.back().norm(), 1.0, tolerance);
       const double curvature = (a[1] * b[2] - b[1] * a[2]) / std::pow(std::hypot(a[1], b[1]), 3);
-      if (is_ring || (i > 100 && i < 900)) EXPECT_NEAR(curvature, 1.0, 0.1);
+      if (is_ring || (i > 100 && i < 900)) {
+        EXPECT_NEAR(curvature, 1.0, 0.1);
+      }
     }
     EXPECT_LE(farthest(scan, line), tolerance + 1e-5);  // the sag of the line's chords is 5e-6
   }

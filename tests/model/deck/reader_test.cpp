@@ -210,7 +210,7 @@ TEST(DeckReader, DoesNotReportOneErrorTwice) {
   // An impossible number of elements must not make the monitor's fraction, nor a bad point the member's length, wrong
   // too.
   std::string text = replaced(column_deck, "elements = 80", "elements = \"many\"");
-  text = replaced(text, "B = [2.0, 0.0]", "B = [2.0, \"0\"]");
+  text = replaced(text, "B = [2.0, 0.0]", "B = [2.0, false]");
   text += "[[monitor]]\nname = \"m\"\ncomponent = \"z\"\nat = \"column:0.3\"\n";
 
   const auto found = diagnostics_of(text);

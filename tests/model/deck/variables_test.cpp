@@ -140,7 +140,9 @@ TEST(Formulas, AnyTextIsAValueOrAProblem) {
     for (std::size_t length = random() % 20; length > 0; --length) formula += parts[random() % parts.size()];
     const FormulaResult result = with_a_of_3(formula);
     EXPECT_NE(result.value.has_value(), !result.problem.empty()) << formula;
-    if (result.value) EXPECT_TRUE(std::isfinite(*result.value)) << formula;
+    if (result.value) {
+      EXPECT_TRUE(std::isfinite(*result.value)) << formula;
+    }
   }
 }
 
