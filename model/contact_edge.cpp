@@ -1,9 +1,10 @@
 #include "model/contact_edge.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
+
+#include "model/central_differences.hpp"
 
 namespace arcwall {
 
@@ -22,24 +23,8 @@ double ContactEdge::value(const State& state) const {
 }
 
 Row ContactEdge::gradient(const State& state) const {
-  constexpr double step_of_lambda = 1e-6;
-  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-  if (!std::isfinite(value(state))) return row;
-  State moved = state;
-  const auto slope = [&](double& of, double step) {
-    const double here = of;
-    of = here + step;
-    const double above = value(moved);
-    of = here - step;
-    const double below = value(moved);
-    of = here;
-    return (above - below) / (2.0 * step);
-  };
-  const Vector steps = body_.steps(state);
-  for (Index i = 0; i < steps.size(); ++i)
-    if (steps[i] > 0.0) row.dx[i] = slope(moved.x[i], steps[i]);
-  row.dlambda = slope(moved.lambda, step_of_lambda * std::max(1.0, std::abs(state.lambda)));
-  return row;
+  if (!std::isfinite(value(state))) return {.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  return central_differences(state, body_.steps(state), [&](const State& moved) { return value(moved); });
 }
 
 }  // namespace arcwall

@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/central_differences.hpp"
 #include "model/elements_of_member.hpp"
 
 namespace arcwall {
-
-namespace {
-
-constexpr double force_difference = 1e-6;
-
-}  // namespace
 
 double MemberForce::value(const State& state) const {
   const ShapePoint at = place(state);
@@ -19,22 +14,7 @@ double MemberForce::value(const State& state) const {
 }
 
 Row MemberForce::gradient(const State& state) const {
-  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-  State moved = state;
-  const auto slope = [&](double& unknown, double step) {
-    const double here = unknown;
-    unknown = here + step;
-    const double above = value(moved);
-    unknown = here - step;
-    const double below = value(moved);
-    unknown = here;
-    return (above - below) / (2.0 * step);
-  };
-  const Vector step = steps(state);
-  for (Index i = 0; i < step.size(); ++i)
-    if (step[i] > 0.0) row.dx[i] = slope(moved.x[i], step[i]);
-  row.dlambda = slope(moved.lambda, std::max(1.0, std::abs(state.lambda)) * force_difference);
-  return row;
+  return central_differences(state, steps(state), [&](const State& moved) { return value(moved); });
 }
 
 ShapePoint TiedMemberForce::place(const State& state) const {

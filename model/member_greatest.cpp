@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "core/root_find.hpp"
+#include "model/central_differences.hpp"
 
 namespace arcwall {
 
 namespace {
 
-constexpr double step_of_lambda = 1e-6;
 constexpr double exceeds = 1e-10;
 
 // The quartic through the values at five places of equal spacing. Moments along a stretch are one, since its axis is
@@ -130,22 +130,10 @@ double MemberGreatest::again(const State& state, const Found& found) const {
 }
 
 Row MemberGreatest::gradient(const State& state) const {
-  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   const Found found = greatest(state);
-  State moved = state;
-  const auto slope = [&](double& of, double step) {
-    const double here = of;
-    of = here + step;
-    const double above = again(moved, found);
-    of = here - step;
-    const double below = again(moved, found);
-    of = here;
-    return (above - below) / (2.0 * step);
-  };
-  for (const ElementsOfMember::Step& step : member_->steps(state, found.element))
-    row.dx[step.unknown] = slope(moved.x[step.unknown], step.size);
-  row.dlambda = slope(moved.lambda, step_of_lambda * std::max(1.0, std::abs(state.lambda)));
-  return row;
+  Vector steps = Vector::Zero(state.x.size());
+  for (const ElementsOfMember::Step& step : member_->steps(state, found.element)) steps[step.unknown] = step.size;
+  return central_differences(state, steps, [&](const State& moved) { return again(moved, found); });
 }
 
 std::size_t GreatestOfMembers::greatest(const State& state) const {

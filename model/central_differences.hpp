@@ -1,0 +1,13 @@
+#pragma once
+
+#include <functional>
+
+#include "core/observable.hpp"
+
+namespace arcwall {
+
+/// The gradient of a value of a state by central differences. `steps` has by how much each unknown is moved; one whose
+/// step is 0 has no part in the value. λ is moved by 1e-6 of itself, at least of 1.
+Row central_differences(const State& state, const Vector& steps, const std::function<double(const State&)>& value);
+
+}  // namespace arcwall
