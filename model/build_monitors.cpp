@@ -516,43 +516,16 @@ namespace {
 // zero.
 double roundoff_of(const deck::Deck& deck, const Measured& from, const MonitorColumn& column) {
   constexpr double of_forces = 10.0, of_places = 1e-12;
-  const double length = from.structure.length_scale(), force = of_forces * from.structure.force_roundoff();
-  switch (column.component) {
-    case deck::Component::reaction_x:
-    case deck::Component::reaction_z:
-    case deck::Component::axial_force:
-    case deck::Component::force_x:
-    case deck::Component::force_z:
-      return force;
-    case deck::Component::reaction_moment:
-    case deck::Component::moment:
-    case deck::Component::max_moment:
-      return force * length;
-    case deck::Component::greatest_pressure:
-      return force / length;
-    case deck::Component::max_stress:
-    case deck::Component::utilisation: {
-      double most = 0.0;
-      if (const deck::Monitor* const monitor = deck::find(deck.monitors, column.name))
-        for (const AlongMember& along : along_members(deck, from, *monitor))
-          most = std::max(most, of_forces * along.negligible);
-      return most;
-    }
-    case deck::Component::x:
-    case deck::Component::z:
-    case deck::Component::gap:
-    case deck::Component::contact_start:
-    case deck::Component::contact_end:
-    case deck::Component::face_above_z:
-    case deck::Component::face_below_z:
-      return of_places * length;
-    case deck::Component::rotation:
-    case deck::Component::thickness:
-      return of_places;
-    case deck::Component::thickness2:
-      return of_places / length;
+  if (deck::is_stress(column.component)) {
+    double most = 0.0;
+    if (const deck::Monitor* const monitor = deck::find(deck.monitors, column.name))
+      for (const AlongMember& along : along_members(deck, from, *monitor))
+        most = std::max(most, of_forces * along.negligible);
+    return most;
   }
-  return 0.0;
+  const deck::Dimension unit = dimension_of(column.component);
+  return (unit.force != 0 ? of_forces * from.structure.force_roundoff() : of_places) *
+         std::pow(from.structure.length_scale(), unit.length);
 }
 
 }  // namespace
