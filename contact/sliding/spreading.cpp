@@ -1,6 +1,7 @@
 #include "contact/sliding/spreading.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>

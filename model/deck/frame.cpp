@@ -1,7 +1,6 @@
 #include "model/deck/frame.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <unordered_map>
 #include <variant>
@@ -85,7 +84,6 @@ Frame frame_of(const Deck& deck) {
   constexpr double range = 40.0, far = 64.0;
   std::unordered_map<std::string, Vector> points;
   for (const Point& point : deck.points) points.emplace(point.name, point.at);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Vector low{infinity, infinity}, high{-infinity, -infinity};
   for (const Member& member : deck.members)
     for (const std::string& end : {member.from, member.to}) {
