@@ -15,6 +15,7 @@ namespace arcwall::monitors_test {
 namespace {
 
 using loading_test::expect_confirmed;
+using test::said_of;
 using test::TracedDeck;
 
 // A beam of length 1 and EI = 1 in so many elements, which its load bends little enough for linear theory: to 10⁻⁸.
@@ -52,15 +53,6 @@ void expect_gradients(const TracedDeck& run) {
       EXPECT_LE(check_gradient(*column.quantity, run.last(), step), 2e-6) << column.name;
     }
   }
-}
-
-std::string said_of(const std::string& deck) {
-  try {
-    const TracedDeck run(deck);
-  } catch (const InputError& error) {
-    return to_text(error.diagnostics().front());
-  }
-  return {};
 }
 
 const std::string far_wall = "[[wall]]\nname = \"w\"\nside = \"below\"\nprofile = { type = \"flat\", z = -50.0 }\n";

@@ -16,6 +16,7 @@ namespace arcwall::stress_monitors_test {
 namespace {
 
 using loading_test::expect_confirmed;
+using test::said_of;
 using test::TracedDeck;
 
 constexpr double pi = std::numbers::pi;
@@ -64,15 +65,6 @@ void expect_gradients(const TracedDeck& run) {
     if (!column.is_place) {
       EXPECT_LE(check_gradient(*column.quantity, run.last(), 1e-7), 2e-6) << column.name;
     }
-}
-
-std::string said_of(const std::string& deck) {
-  try {
-    const TracedDeck run(deck);
-  } catch (const InputError& error) {
-    return to_text(error.diagnostics().front());
-  }
-  return {};
 }
 
 void expect_in(const std::string& said, const std::vector<std::string>& parts) {

@@ -35,6 +35,16 @@ inline const RecordEvent& event_of(const TracedDeck& traced, EventKind kind, int
   return event_of(traced.record(), kind, number);
 }
 
+/// The first problem of a deck that is refused; empty of one that runs.
+inline std::string said_of(const std::string& deck) {
+  try {
+    const TracedDeck run(deck);
+  } catch (const InputError& error) {
+    return to_text(error.diagnostics().front());
+  }
+  return {};
+}
+
 /// The text of an example that comes with the program.
 inline std::string_view example(const std::string& name) {
   for (const ExampleDeck& deck : example_decks())

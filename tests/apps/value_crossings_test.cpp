@@ -17,6 +17,7 @@ namespace arcwall::value_crossings_test {
 namespace {
 
 using loading_test::expect_confirmed;
+using test::said_of;
 using test::TracedDeck;
 
 // The truss of the examples: P = EA w (w − h)(w − 2h)/L³, h = 0.5, L² = 25.25.
@@ -35,15 +36,6 @@ std::string device(const std::string& name) {
 }
 
 double monitor(const RecordEvent& event) { return event.monitors.at(0); }
-
-std::string said_of(const std::string& deck) {
-  try {
-    const TracedDeck run(deck);
-  } catch (const InputError& error) {
-    return to_text(error.diagnostics().front());
-  }
-  return {};
-}
 
 void expect_in(const std::string& said, const std::string& part) {
   EXPECT_NE(said.find(part), std::string::npos) << said << "\n: " << part;

@@ -17,6 +17,7 @@ namespace arcwall::wall_monitors_test {
 namespace {
 
 using loading_test::expect_confirmed;
+using test::said_of;
 using test::TracedDeck;
 
 std::string monitor(const std::string& name, const std::string& of, const std::string& component) {
@@ -29,15 +30,6 @@ double last(const TracedDeck& run, const std::string& name) {
     if (columns[i].name == name) return run.record().points.back().monitors[i];
   ADD_FAILURE() << "no monitor is called " << name;
   return 0.0;
-}
-
-std::string said_of(const std::string& deck) {
-  try {
-    const TracedDeck run(deck);
-  } catch (const InputError& error) {
-    return to_text(error.diagnostics().front());
-  }
-  return {};
 }
 
 void expect_in(const std::string& said, const std::string& part) {
