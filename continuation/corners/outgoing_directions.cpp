@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace arcwall {
@@ -190,6 +191,18 @@ std::vector<Solution> pivoted(const RateProblem& problem) {
   return found;
 }
 
+// How fast the structure moves with σ: by itself, or as one of the contacts alone makes it follow. Where only walls
+// move nothing moves by itself.
+double greatest_motion(const RateProblem& problem) {
+  double greatest = problem.free_rate.dx.norm();
+  for (Index i = 0; i < problem.a.size(); ++i) {
+    const double force = std::abs(problem.a[i] / problem.M(i, i));
+    if (std::isfinite(force))
+      greatest = std::max(greatest, force * problem.response[static_cast<std::size_t>(i)].dx.norm());
+  }
+  return std::max(greatest, std::numeric_limits<double>::min());
+}
+
 // The direction of a solution in the unknowns of its own active set; none if a rate has the wrong sign.
 std::vector<OutgoingDirection> direction_of(const UnilateralSystem& system, const State& corner,
                                             const std::vector<Index>& degenerate, const RateProblem& problem,
@@ -201,7 +214,7 @@ std::vector<OutgoingDirection> direction_of(const UnilateralSystem& system, cons
     motion.dlambda += solution.p[i] * response.dlambda;
   }
   Vector gap_rate = solution.sigma * problem.a + problem.M * solution.p;
-  double length = std::hypot(motion.dx.norm() / std::max(problem.free_rate.dx.norm(), 1e-300), solution.sigma);
+  double length = std::hypot(motion.dx.norm() / greatest_motion(problem), solution.sigma);
   if (length == 0.0) length = std::abs(motion.dlambda);  // the load grows and nothing moves
   if (!(length > 0.0)) return {};
   const Vector p = solution.p / length;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -420,4 +421,32 @@ path = { step = 0.05, jumps = false, stop = { lambda = [-3.0, 3.0] } }
 }
 
 }  // namespace
+// Nothing but the wedge moves two equal fingers. Its circle is as far from the axes as the tips' radius at λ = 15 −
+// √(7.25² − 5²), for both at once, and each then bends as one finger alone.
+TEST(TwoFingers, AreSpreadByOneWedgeTogether) {
+  const std::string fingers = R"toml(
+title = "Two equal fingers that a wedge spreads"
+material.steel = { E = 2.0e5 }
+section.s = { shape = "rectangle", width = 5.0, height = 0.5 }
+point = { a = [0.0, 5.0], b = [30.0, 5.0], c = [0.0, -5.0], d = [30.0, -5.0] }
+member.up = { from = "a", to = "b", theory = "elastica", material = "steel", section = "s", elements = 10 }
+member.down = { from = "c", to = "d", theory = "elastica", material = "steel", section = "s", elements = 10 }
+support = { a = ["x", "z", "rotation"], c = ["x", "z", "rotation"] }
+wall = [{ name = "wedge", outline = { type = "circle", centre = [45.0, 0.0], radius = 7.0 }, motion = { x = -1.0 } }]
+monitor = [{ name = "up", at = "b", component = "z" }, { name = "down", at = "d", component = "z", sign = -1 }]
+path = { step = 0.5, stop = { lambda = [-1.0, 12.0] } }
+)toml";
+  const test::TracedDeck both(fingers);
+  const test::TracedDeck alone(fingers, {"wall.wedge.members=[\"up\"]"});
+  const double touch = 15.0 - std::sqrt(7.25 * 7.25 - 25.0);
+  const RecordEvent& closes = event_of(both, EventKind::contact_closes);
+  EXPECT_NEAR(closes.lambda, touch, 1e-9);
+  EXPECT_EQ(closes.contacts.size(), 2U);
+  EXPECT_NEAR(event_of(alone, EventKind::contact_closes).lambda, touch, 1e-9);
+  const RecordPoint &end = both.record().points.back(), &of_one = alone.record().points.back();
+  EXPECT_EQ(end.lambda, 12.0);
+  for (const double opened : end.monitors) EXPECT_NEAR(opened, of_one.monitors[0], 1e-9);
+  test::expect_whole(both);
+}
+
 }  // namespace arcwall::deck_answers_test
