@@ -53,7 +53,7 @@ profile = { type = "flat", z = -0.5 }
 
 // Without stiffness at rest the path cannot begin, and the deck is told so with a cure. With that it begins, and what
 // the cure adds is not seen in what follows.
-TEST(FlatLaw, IsToldWithACureAfterWhichThePathBegins) {
+TEST(FlatLaw, IsToldWithACureAfterWhichThePathBeginsSlow) {
   const TracedDeck flat(pipe("0.0"));
   const std::vector<std::string>& warnings = flat.model().warnings();
   const auto tells = [](const std::string& warning) {

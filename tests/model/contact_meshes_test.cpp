@@ -93,7 +93,7 @@ std::vector<EventKind> kinds_of(const Session& run) {
 }  // namespace
 
 // It used to pass the pitchfork, which the mesh had opened, and on most decks went on along an unstable state.
-TEST(ContactMeshes, ATouchThatComesToTheLoadOfASymmetricArchFindsThePitchforkThere) {
+TEST(ContactMeshes, ATouchThatComesToTheLoadOfASymmetricArchFindsThePitchforkThereSlow) {
   for (const std::string& deck : {arch(24), arch(48), arch(34), arch(24, "0.0", true)}) {
     SCOPED_TRACE(deck);
     const Session run = test::traced(deck);
@@ -111,7 +111,7 @@ TEST(ContactMeshes, ATouchThatComesToTheLoadOfASymmetricArchFindsThePitchforkThe
 }
 
 // Off a floor that is not level the arch is symmetric again, and comes back to the pitchfork that it left.
-TEST(ContactMeshes, AnArchThatHasLeftItsFloorPassesThePitchforkThatItCameBy) {
+TEST(ContactMeshes, AnArchThatHasLeftItsFloorPassesThePitchforkThatItCameBySlow) {
   for (const int elements : {24, 48}) {
     SCOPED_TRACE(elements);
     const Session run = test::traced(arch(elements, "-0.002"));

@@ -135,7 +135,7 @@ TEST(Frame, HasTheStructureBesideItsOriginAndOfItsSize) {
 
 // A conversion and its inverse change nothing: what is converted at all is so by one power of two and one shift. And it
 // makes the same structure: the deck that is traced as it is, in the user's own coordinates, has the same events.
-TEST(Frame, MakesTheSameStructureOfAnyDeck) {
+TEST(Frame, MakesTheSameStructureOfAnyDeckSlow) {
   for (const char* const text : {portal, walls, arch}) {
     const deck::Deck original = read(text);
     deck::Deck there = deck::in_frame(original, {.origin = {-2.0, 4.0}, .exponent = 3});
@@ -176,7 +176,7 @@ TEST(FarFromTheOrigin, TheEventsAreThoseBesideIt) {
 }
 
 // In units that make its lengths 10⁻¹² the structure has the same loads, and everything else in these units.
-TEST(TinyLengths, HaveTheEventsOfOrdinaryOnes) {
+TEST(TinyLengths, HaveTheEventsOfOrdinaryOnesSlow) {
   constexpr int e = 40;
   for (const char* const text : {portal, walls, arch}) {
     const Session ordinary = test::traced(text), tiny = test::traced(written_in(text, {.exponent = e}),

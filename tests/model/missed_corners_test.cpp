@@ -166,7 +166,7 @@ TEST(MissedCorners, AreNotMetAgainOnTheMeshOfTheNextContact) {
 // Behind a spreading, just before λ of that active set turns, a quarter of the first length led to another equilibrium,
 // with one direction less that gives way though λ goes on, and the path ran back into its start; finer meshes did not.
 // The symmetric path, on which the other half touches, by shooting, apart from this program.
-TEST(MissedCorners, AreReachedByTheEquilibriumThatBeginsAtASpreading) {
+TEST(MissedCorners, AreReachedByTheEquilibriumThatBeginsAtASpreadingSlow) {
   for (const int elements : {12, 16, 24}) {
     SCOPED_TRACE(elements);
     const Session run = test::traced(other_toggle("elastica", elements, 3.562704835735637, 0.2584684735629513,

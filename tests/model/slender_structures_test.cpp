@@ -131,7 +131,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 class SlenderStructure : public testing::TestWithParam<Structure> {};
 
-TEST_P(SlenderStructure, BucklesAtItsLoadWhateverItsSlendernessStepAndWalls) {
+TEST_P(SlenderStructure, BucklesAtItsLoadWhateverItsSlendernessStepAndWallsSlow) {
   const Structure& structure = GetParam();
   for (const double EA : {1e4, 1e6, 1e8, 1e10}) {
     if (EA < structure.least_EA) continue;

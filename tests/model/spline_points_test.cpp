@@ -64,7 +64,7 @@ constexpr double jump = 0.2015311, curvature = 0.0104099, EI = 2.1e7 * 0.023 * 0
 }  // namespace
 
 // It used to open later, by 0.35 % of λ on every mesh, and two limit points were told before that.
-TEST(SplinePoints, APartOpensAndClosesWhereItsEdgeComesToOne) {
+TEST(SplinePoints, APartOpensAndClosesWhereItsEdgeComesToOneSlow) {
   for (const Column& column : std::vector<Column>{{},
                                                   {.elements = 29},
                                                   {.theory = "elastica"},

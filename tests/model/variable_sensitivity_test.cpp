@@ -50,7 +50,7 @@ std::vector<double> by_runs(const std::string& deck, const std::string& key, dou
 }  // namespace
 
 // The chain rule; by both walls' shift at the snap, the extensible elastica by shooting: the lower wall is not touched.
-TEST(VariableSensitivity, IsThatByAllItsKeys) {
+TEST(VariableSensitivity, IsThatByAllItsKeysSlow) {
   const Session session =
       test::traced(channel_of_a_gap(), {"path.sensitivity=['wall.upper.profile.z','wall.lower.profile.z',"
                                         "'section.s.height','gap','variables.clearance','shift']"});
@@ -84,7 +84,7 @@ TEST(VariableSensitivity, IsThatOfOtherRunsSlow) {
 }
 
 // Over a variable of which the length of a column is twice: Euler's load.
-TEST(VariableSensitivity, CurvesOverAVariableAreEulers) {
+TEST(VariableSensitivity, CurvesOverAVariableAreEulersSlow) {
   const std::string text = test::straight_column(16) + R"toml([curve]
 event = { kind = "branch-point" }
 parameter = "half"

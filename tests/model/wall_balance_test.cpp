@@ -61,7 +61,7 @@ bool is_wall(const MonitorColumn& column) { return column.name.starts_with("wall
 
 // Statics: the forces on the whole are zero in sum, and so are the moments. What remains is what Newton's method
 // leaves, and the round-off of stiffness times length, EA L = 10⁵, on any mesh.
-TEST(WallBalance, HoldsOnAFormerOnAnyMesh) {
+TEST(WallBalance, HoldsOnAFormerOnAnyMeshSlow) {
   constexpr double left = 1e5 * 1e-12;
   for (const char* const elements : {"10", "20", "40"})
     for (const char* const theory : {"elastica", "euler-bernoulli"}) {
@@ -80,7 +80,7 @@ TEST(WallBalance, HoldsOnAFormerOnAnyMesh) {
 }
 
 // Of contact at nodes by all methods, springs on the wall among them.
-TEST(WallBalance, HoldsForContactAtNodes) {
+TEST(WallBalance, HoldsForContactAtNodesSlow) {
   for (const char* const method : {"multiplier", "penalty", "augmented"}) {
     SCOPED_TRACE(method);
     std::vector<std::string> settings{"contact.points=\"nodes\"", std::string("contact.method=\"") + method + "\""};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/model/traced_session.hpp"
@@ -40,7 +41,7 @@ double greatest_push(const Record& record) {
 
 // The push rises from zero at the touch and falls again within one step of the default length. Small steps show how
 // great it becomes.
-TEST(WatchedForce, HasItsMaximumRightBehindATouchWhateverTheStep) {
+TEST(WatchedForce, HasItsMaximumRightBehindATouchWhateverTheStepSlow) {
   const double greatest = greatest_push(test::traced(clip, {"path.max_step=0.002"}).record());
   for (const char* const setting : {"path.step=0.1", "path.step=1.0", "path.max_step=0.5", "path.max_step=0.05"}) {
     SCOPED_TRACE(setting);
@@ -102,20 +103,20 @@ Maximum greatest(const Record& record, std::size_t monitor) {
 
 // The reaction depends on the beam's strain times its stiffness EA, 10⁵ times what it bends by. The path without the
 // watch, in short steps, tells where it is greatest.
-TEST(WatchedForce, OfAStiffMemberHasItsMaximumWhereItIsOnAnyMeshAndStep) {
+TEST(WatchedForce, OfAStiffMemberHasItsMaximumWhereItIsOnAnyMeshAndStepSlow) {
   const Maximum expected =
       greatest(test::traced(bent_over_a_prop, {"path.watch=[]", "path.max_step=0.01"}).record(), 0);
-  for (const char* const elements : {"20", "40", "80"})
-    for (const char* const step : {"0.2", "0.01"}) {
-      SCOPED_TRACE(std::string(elements) + " elements, steps " + step);
-      const Session run = test::traced(
-          bent_over_a_prop, {std::string("member.beam.elements=") + elements, std::string("path.max_step=") + step});
-      std::vector<RecordEvent> turns = test::events_of(run.record(), EventKind::turning_point);
-      std::erase_if(turns, [](const RecordEvent& turn) { return turn.monitor != "F"; });
-      ASSERT_EQ(turns.size(), 1U);
-      EXPECT_NEAR(turns[0].lambda, expected.lambda, 1e-4);
-      EXPECT_NEAR(turns[0].monitors[0], expected.value, 1e-6 * expected.value);
-    }
+  const std::pair<std::string, std::string> meshes_and_steps[] = {
+      {"20", "0.2"}, {"20", "0.01"}, {"40", "0.2"}, {"80", "0.2"}};
+  for (const auto& [elements, step] : meshes_and_steps) {
+    SCOPED_TRACE(elements + " elements, steps " + step);
+    const Session run = test::traced(bent_over_a_prop, {"member.beam.elements=" + elements, "path.max_step=" + step});
+    std::vector<RecordEvent> turns = test::events_of(run.record(), EventKind::turning_point);
+    std::erase_if(turns, [](const RecordEvent& turn) { return turn.monitor != "F"; });
+    ASSERT_EQ(turns.size(), 1U);
+    EXPECT_NEAR(turns[0].lambda, expected.lambda, 1e-4);
+    EXPECT_NEAR(turns[0].monitors[0], expected.value, 1e-6 * expected.value);
+  }
 }
 
 // A force that is zero by symmetry has round-off for its rate, of any sign.
