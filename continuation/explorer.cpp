@@ -136,9 +136,9 @@ std::optional<Explorer::Step> Explorer::next() {
       queued.start.known = known_;
       branches_.push_back(queued.record);
       tracer_ = make_tracer(std::move(queued.start));
-      lambda_scale_ = tracer_->lambda_scale();
     }
     if (auto arc = tracer_->next()) {
+      lambda_scale_ = tracer_->lambda_scale();
       if (not_left_) look_behind(*std::exchange(not_left_, std::nullopt), *arc);
       for (const Event& event : arc->events)
         if (event.branching) look_at(event);

@@ -54,18 +54,18 @@ double distance_to_buckling(TraceTools& tools, const State& start, const Directi
 
 }  // namespace
 
-double natural_lambda_scale(TraceTools& tools, const State& start) {
+std::optional<double> natural_lambda_scale(TraceTools& tools, const State& start) {
   const double first = std::abs(tools.options.step.first);
   const Metric metric = tools.metric_on(start.active_set, 1.0);
   const Direction up{.dx = Vector::Zero(start.x.size()), .dlambda = 1.0};
   const CorrectorResult at = tools.corrector.inspect(start, metric, up);
   tools.corrector.track_from({});
-  if (!at.converged()) return first;
+  if (!at.converged()) return std::nullopt;
   const double dlambda = at.tangent.dlambda;
   const double moves = std::sqrt(metric.inner_x(at.tangent, at.tangent) +
                                  dlambda * dlambda * tools.system.squared_motion_by_lambda(start.active_set));
   const double rate = std::abs(dlambda) / moves;
-  if (!(std::isfinite(rate) && rate > 0.0) || first <= unmoved * rate) return first;
+  if (!(std::isfinite(rate) && rate > 0.0) || first <= unmoved * rate) return std::nullopt;
   const Direction t{.dx = at.tangent.dx / moves, .dlambda = dlambda / moves};
   return rate * std::min(1.0, stiffness_changes * distance_to_buckling(tools, start, t, at.nearest));
 }

@@ -142,26 +142,46 @@ Arc take(Accepted accepted, TracerState& state) {
 }  // namespace
 
 Tracer::Tracer(const System& system, BranchStart start, TraceOptions options, std::vector<Watch> watched)
-    : tools_(std::make_unique<TraceTools>(system, std::move(options))) {
-  const std::optional<double>& given = start.lambda_scale ? start.lambda_scale : tools_->options.lambda_scale;
-  state_.lambda_scale = given ? *given : natural_lambda_scale(*tools_, start.state);
+    : tools_(std::make_unique<TraceTools>(system, std::move(options))), watched_(std::move(watched)) {
+  std::optional<double> scale = start.lambda_scale ? start.lambda_scale : tools_->options.lambda_scale;
+  if (!scale) scale = natural_lambda_scale(*tools_, start.state);
+  state_.lambda_scale = scale.value_or(std::abs(tools_->options.step.first));
+  state_.lambda_scale_is_assumed = !scale;
   state_.step = StepControl(tools_->options.step, tools_->options.step.max);
   state_.from.point.state = start.state;
   state_.start = std::move(start);
-  if (tools_->options.events == EventSearch::none) return;
-  const Metric metric = tools_->metric_on(state_.start.state.active_set, state_.lambda_scale);
-  auto& detectors = tools_->detectors;
-  detectors.push_back(limit_point_detector(metric));
-  for (const Watch& watch : watched) detectors.push_back(turning_detector(system, metric, watch));
-  const auto& own = tools_->options.detectors;
-  detectors.insert(detectors.end(), own.begin(), own.end());
+  set_detectors();
 }
 
 Tracer::~Tracer() = default;
 
+void Tracer::set_detectors() {
+  if (tools_->options.events == EventSearch::none) return;
+  const Metric metric = tools_->metric_on(state_.from.point.state.active_set, state_.lambda_scale);
+  auto& detectors = tools_->detectors;
+  detectors.clear();
+  detectors.push_back(limit_point_detector(metric));
+  for (const Watch& watch : watched_) detectors.push_back(turning_detector(tools_->system, metric, watch));
+  const auto& own = tools_->options.detectors;
+  detectors.insert(detectors.end(), own.begin(), own.end());
+}
+
+void Tracer::measure_lambda_scale() {
+  Departure& from = state_.from;
+  if (from.before || from.known_end) return;
+  const std::optional<double> scale = natural_lambda_scale(*tools_, from.point.state);
+  if (!scale) return;
+  state_.lambda_scale = *scale;
+  state_.lambda_scale_is_assumed = false;
+  set_detectors();
+  from.point.tangent = unit(tools_->metric_on(from.point.state.active_set, *scale), from.point.tangent);
+  state_.step.restart(std::abs(tools_->options.step.first / from.point.tangent.dlambda));
+}
+
 std::optional<Arc> Tracer::next() {
   if (state_.end) return std::nullopt;
   if (state_.points == 0) return begin();
+  if (state_.lambda_scale_is_assumed) measure_lambda_scale();
   if (state_.points >= tools_->options.max_points) {
     state_.end = {.reason = EndReason::max_points, .detail = std::to_string(state_.points) + " points"};
     return std::nullopt;

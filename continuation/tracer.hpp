@@ -36,7 +36,7 @@ class Tracer {
   /// Ends the branch at its last point (time limit, interrupt).
   void stop(BranchEnd end) { state_.end = std::move(end); }
 
-  /// Returns λ₀ of the path metric; theory section 3.
+  /// Returns λ₀ of the path metric; theory section 3. It changes once where the structure does not move at the start.
   double lambda_scale() const { return state_.lambda_scale; }
 
   /// Returns the start point of the next step: the last accepted point, or one just after a change of the layout.
@@ -56,9 +56,12 @@ class Tracer {
 
  private:
   bool is_of_this_branch(const TracerState& state) const;
+  void set_detectors();
+  void measure_lambda_scale();
   std::optional<Arc> begin();
 
   std::unique_ptr<TraceTools> tools_;
+  std::vector<Watch> watched_;
   TracerState state_;
 };
 

@@ -43,7 +43,8 @@ struct Departure {
 /// Everything that varies while a branch is traced. Written and read by an archive this is the checkpoint: a tracer of
 /// the same system and options into which it is read goes on to the same last bit.
 struct TracerState {
-  double lambda_scale = 1.0;  ///< λ₀ of the path metric
+  double lambda_scale = 1.0;             ///< λ₀ of the path metric
+  bool lambda_scale_is_assumed = false;  ///< the structure has not moved yet
   BranchStart start{};
   StepControl step{StepOptions{}, StepOptions{}.max};
   Departure from{};
@@ -55,7 +56,8 @@ struct TracerState {
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(lambda_scale, start, step, from, visited, end, points, greatest_lambda, corners_without_progress);
+    archive(lambda_scale, lambda_scale_is_assumed, start, step, from, visited, end, points, greatest_lambda,
+            corners_without_progress);
   }
 };
 

@@ -184,4 +184,32 @@ TEST(PulledSwitch, PeelsOffInStepsOfItsMotion) {
   EXPECT_NEAR(record.points.back().lambda, small_slopes, 0.13 * 0.13 * small_slopes);
 }
 
+// The load on the truss's top goes into the floor until it bears the constant load: no first step says how far it moves
+// the truss. With Green's strain the top at z over its supports bears EA z (h² − z²)/L³, greatest at z = −h/√3.
+TEST(LiftedTruss, IsFollowedInStepsOfItsMotionOnceItIsFree) {
+  const Session run = test::traced(R"toml(
+title = "A two-bar truss that a load has snapped onto a floor, and that is pulled off"
+material.m = { E = 1e7 }
+section.s = { shape = "general", A = 1.0, I = 1.0 }
+point = { l = [0.0, 0.0], top = [10.0, 1.0], r = [20.0, 0.0] }
+support = { l = ["x", "z"], r = ["x", "z"] }
+member.left = { from = "l", to = "top", theory = "truss", strain = "green", material = "m", section = "s", elements = 1 }
+member.right = { from = "top", to = "r", theory = "truss", strain = "green", material = "m", section = "s", elements = 1 }
+wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = -1.2 } }]
+load = [{ at = "top", force = [0.0, 1.0] }, { at = "top", force = [0.0, -1e4], constant = true }]
+path = { step = 0.1, jumps = false, stop = { lambda = [-1.0, 3e4] } }
+)toml");
+  const Record& record = run.record();
+  EXPECT_LE(record.points.size(), 100U);
+  EXPECT_EQ(record.points.back().lambda, 3e4);
+  const double L = std::sqrt(101.0), borne = 1e7 / (L * L * L), greatest = borne * 2.0 / std::pow(3.0, 1.5);
+  const auto opens = test::events_of(record, EventKind::contact_opens);
+  ASSERT_EQ(opens.size(), 1U);
+  EXPECT_NEAR(opens[0].lambda, 1e4 - borne * 1.2 * (1.2 * 1.2 - 1.0), 1e-6);
+  const auto turns = test::events_of(record, EventKind::limit_point);
+  ASSERT_EQ(turns.size(), 2U);
+  EXPECT_NEAR(turns[0].lambda, 1e4 + greatest, 1e-6);
+  EXPECT_NEAR(turns[1].lambda, 1e4 - greatest, 1e-6);
+}
+
 }  // namespace arcwall::steps_of_slender_structures_test
