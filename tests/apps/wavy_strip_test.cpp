@@ -11,7 +11,7 @@
 
 namespace arcwall {
 
-TEST(WavyStrip, ArchesBesideItsTipAsThatLiesDown) {
+TEST(WavyStrip, ArchesBesideItsTipAsThatLiesDownSlow) {
   for (const int elements : {8, 12, 24, 48}) {
     SCOPED_TRACE(elements);
     const test::TracedDeck traced(fmt::format(R"toml(
@@ -47,7 +47,7 @@ path = {{ step = 0.1, stop = {{ lambda = [-0.5, 3.0] }} }}
 // A slender strip (EA L²/EI = 4e7) whose tip slides up a sloping ceiling, until it is tangent to that and the contact
 // passes inside. What round-off makes of forces is a great scale then, and no measure of the error of a mesh: an arch
 // whose tip the ceiling pulls with 0.7 % of the load is none. References: shot from the clamp as above.
-TEST(WavyStrip, IsNotPulledAtItsTip) {
+TEST(WavyStrip, IsNotPulledAtItsTipSlow) {
   for (const int elements : {24, 48}) {
     SCOPED_TRACE(elements);
     const test::TracedDeck traced(fmt::format(R"toml(

@@ -119,7 +119,7 @@ TEST(WholeTurns, CloseTheLoopOfAColumn) {
 
 // Every state that is found is another one, and the mesh resolves it: pushed together by 0.5 % it bears some hundred
 // newtons, a folded element of EA = 600 kN a hundred times that.
-TEST(WholeTurns, AreNotFoundAsOtherStates) {
+TEST(WholeTurns, AreNotFoundAsOtherStatesSlow) {
   const TracedDeck traced(strip);
   const Record& record = traced.record();
   ASSERT_EQ(record.searches.size(), 2u);

@@ -40,7 +40,7 @@ std::string heated_column(const UnitsOf& in, bool in_channel, double step, doubl
 
 // Between fixed ends a straight pinned column carries EA e without moving, and buckles at e = π² EI/(EA L²), exactly.
 // Behind it the loads and amplitudes are those of the extensible elastica by quadrature.
-TEST(Heat, BucklesAColumnBetweenFixedEnds) {
+TEST(Heat, BucklesAColumnBetweenFixedEndsSlow) {
   const double critical = pi * pi * 0.175 / (210.0 * 4.0);
   const TracedDeck traced(heated_column(centimetres, false, 0.0005, 10.5 * critical),
                           {fmt::format("path.output_at.lambda=[{:.17g},{:.17g},{:.17g}]", 1.1 * critical,
@@ -84,7 +84,7 @@ TEST(Heat, SnapsAColumnInAChannelAtTheGreatestHeatSlow) {
   expect_same_events(traced, TracedDeck(heated_column(metres, true, 0.001, 0.15)), 1e-7);
 }
 
-TEST(Heat, SnapsWithTheOrderOfTheTheory) {
+TEST(Heat, SnapsWithTheOrderOfTheTheorySlow) {
   constexpr double reference = 0.06540564515039;
   for (const auto& [theory, order] : {std::pair("elastica", 5.0), std::pair("euler-bernoulli", 3.5)}) {
     SCOPED_TRACE(theory);

@@ -90,7 +90,7 @@ double of_monitor(const RecordPoint& point, std::size_t which) { return point.mo
 }  // namespace
 
 // As long as the bore's radius it rests on its tips, until its middle touches and spreads.
-TEST(RodInARoundBore, TouchesWithItsMiddle) {
+TEST(RodInARoundBore, TouchesWithItsMiddleSlow) {
   std::vector<double> touches, spreads;
   for (const int elements : {12, 24, 48}) {
     const double deep = -std::sqrt(0.75);
@@ -110,7 +110,7 @@ TEST(RodInARoundBore, TouchesWithItsMiddle) {
 
 // Released at a slant, and a short one far above the ground, it comes to rest at the bottom: its middle 0.87955721
 // below the centre. A short rigid one that is 2a long rests √(1 − a²) below it.
-TEST(RodInARoundBore, RollsToTheBottom) {
+TEST(RodInARoundBore, RollsToTheBottomSlow) {
   const double deep = std::sqrt(0.75) - 1e-3;
   const Eigen::Rotation2D<double> turn(pi / 9.0);
   const TracedDeck slanted(
@@ -153,7 +153,7 @@ TEST(RodInASquareBore, LeansInItsCornerSlow) {
 }
 
 // Where the weight is constant the part on the wall has a load along it from the start, and one that λ drives beside.
-TEST(RodInASquareBore, LeansThereUnderAForceToo) {
+TEST(RodInASquareBore, LeansThereUnderAForceTooSlow) {
   const TracedDeck traced(
       rod({0.05, 0.05}, {0.55, 0.05 + 0.5 * std::sqrt(3.0)}, square_bore(0.6, 1.0), Weight::constant, 20.0, 48));
   const auto lies = events_of(traced, EventKind::contact_spreads);
