@@ -47,6 +47,9 @@ class MovingObstacle final : public Obstacle {
   double period() const override { return at_rest_->period(); }
   bool has_other_sides() const override { return at_rest_->has_other_sides(); }
   Vec2 seen_at_rest(const Vec2& position, double lambda) const override { return seen(position, lambda).position; }
+  double clearance(const Vec2& position, double lambda) const override {
+    return at_rest_->clearance(seen(position, lambda).position, 0.0);
+  }
   std::optional<Vec2> core() const override { return at_rest_->core(); }
   std::span<const CurvatureRateJump> curvature_rate_jumps() const override { return at_rest_->curvature_rate_jumps(); }
   LinearField beyond(const CurvatureRateJump& jump, const Vec2& position, double lambda) const override;

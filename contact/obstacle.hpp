@@ -106,7 +106,10 @@ class Obstacle {
   /// A position as the obstacle at rest sees it.
   virtual Vec2 seen_at_rest(const Vec2& position, double /*lambda*/) const { return position; }
 
-  /// A place far inside a closed obstacle that a body is outside of, as it is at rest.
+  /// How far from a position no surface is [length], at least. Only where has_other_sides().
+  virtual double clearance(const Vec2& /*position*/, double /*lambda*/) const { return 0.0; }
+
+  /// A place far inside an obstacle that a body is outside of, as it is at rest.
   virtual std::optional<Vec2> core() const { return std::nullopt; }
 
   /// The corners that have no rounding, as the obstacle is at rest; none where the body's outside is off its axis.

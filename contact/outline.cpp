@@ -1,5 +1,6 @@
 #include "contact/outline.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -134,6 +135,11 @@ class OutlineObstacle final : public Obstacle {
     return outline_->foot(position).curvature_second;
   }
 
+  double clearance(const Vec2& position, double) const override {
+    const OutlineFoot at = outline_->foot(position);
+    return at.beyond ? std::max(at.from_end - half_height_, 0.0) : std::abs(at.distance - half_height_);
+  }
+
   double along(const Vec2& position, double) const override { return outline_->foot(position).along; }
   const std::vector<double>& knots() const override { return knots_; }
   bool is_smooth() const override { return outline_->is_smooth(); }
@@ -184,15 +190,17 @@ std::unique_ptr<Outline> circle_outline(const Vec2& centre, double radius, Keep 
 // From each line along the normal into the obstacle, by steps that double while the line is still the nearest.
 std::optional<Vec2> deepest_place(const Outline& outline, const std::vector<Vec2>& line) {
   std::optional<Vec2> deepest;
-  double depth = 0.0;
+  double depth = 0.0, length = 0.0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) length += (line[i + 1] - line[i]).norm();
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const Vec2 side = line[i + 1] - line[i];
     if (side.isZero(0.0)) continue;
     const Vec2 from = 0.5 * (line[i] + line[i + 1]), inward = -perp(side.normalized());
-    for (double step = 0.5 * side.norm();; step *= 2.0) {
+    for (double step = 0.5 * side.norm(); step <= length; step *= 2.0) {
       const Vec2 place = from + step * inward;
-      const double here = -outline.foot(place).distance;
-      if (here < 0.5 * step) break;
+      const OutlineFoot foot = outline.foot(place);
+      const double here = -foot.distance;
+      if (foot.beyond || here < 0.5 * step) break;
       if (here <= depth) continue;
       depth = here;
       deepest = place;

@@ -17,6 +17,7 @@ struct OutlineFoot {
   double curvature_second = 0.0;  ///< Obstacle::curvature_second() of that curve [1/length³]
   double along = 0.0;             ///< Obstacle::along()
   bool beyond = false;            ///< the position is beyond an end of the outline
+  double from_end = 0.0;          ///< of such a position from that end [length]
 };
 
 /// A curve in the plane that has a direction; the body stays to the left of it. It may be closed.
@@ -43,7 +44,7 @@ class Outline {
   /// The greatest curvature to the left: a body of height h needs 1/κ > h/2 [1/length].
   virtual double sharpest_hollow() const = 0;
 
-  /// A place far inside, of a closed outline that is touched from outside.
+  /// A place far inside: behind the outline, and none of its ends is nearer. None of a closed one with the body inside.
   virtual std::optional<Vec2> core() const { return std::nullopt; }
 
   /// Points along it, for pictures; of one that goes on without end up to `reach` on either side [length].
@@ -77,8 +78,8 @@ std::unique_ptr<Outline> closed_curve_outline(std::vector<Vec2> points, Keep kee
 std::unique_ptr<Outline> polyline_outline(std::vector<Vec2> points, double corner_radius);
 std::unique_ptr<Outline> closed_polyline_outline(std::vector<Vec2> points, double corner_radius, Keep keep);
 
-/// A place inside a closed outline that is touched from outside, far from its line: of those behind the middles of a
-/// polygon along it.
+/// A place behind an outline that faces it and is far from its line, but no farther than the line is long: of those
+/// behind the middles of a polygon along it.
 std::optional<Vec2> deepest_place(const Outline& outline, const std::vector<Vec2>& line);
 
 /// Twice the area within a closed polygon, positive if it runs anticlockwise.

@@ -94,7 +94,7 @@ class ParametricOutline : public Outline {
       constexpr double above_the_polygon = 1.01;
       lengths_.push_back(above_the_polygon * length);
     }
-    if (is_closed_ && runs_clockwise()) core_ = deepest_place(*this, points(0.0));
+    if (!is_closed_ || runs_clockwise()) core_ = deepest_place(*this, points(0.0));
   }
 
  private:
@@ -161,7 +161,8 @@ class ParametricOutline : public Outline {
             .curvature_second = curvature_second_of(on) * std::pow(widen, 4) +
                                 3.0 * std::pow(curvature_slope_of(on), 2) * d * std::pow(widen, 5),
             .along = is_end ? a + before / on.first.norm() : a,
-            .beyond = is_end && (a == knots_.back() ? before > 0.0 : before < 0.0)};
+            .beyond = is_end && (a == knots_.back() ? before > 0.0 : before < 0.0),
+            .from_end = arm.norm()};
   }
 
   std::vector<double> knots_{}, lengths_{};

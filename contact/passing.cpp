@@ -1,51 +1,74 @@
 #include "contact/passing.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace arcwall {
 
 namespace {
 
-double winding_about(const Vec2& place, const std::vector<Vec2>& round) {
-  double turned = 0.0;
-  for (std::size_t i = 0; i < round.size(); ++i) {
-    const Vec2 a = round[i] - place, b = round[(i + 1) % round.size()] - place;
-    turned += turn_between(a, b);
-  }
-  return turned / (2.0 * pi);
+double distance_from_origin(const Vec2& a, const Vec2& b) {
+  const Vec2 chord = b - a;
+  const double length = chord.squaredNorm();
+  return length > 0.0 ? (a + std::clamp(-a.dot(chord) / length, 0.0, 1.0) * chord).norm() : a.norm();
 }
 
 }  // namespace
 
-// The obstacle at rest is asked at λ = 0, where all that moves is where it is at rest.
+// The way is halved until no surface is as near to both ends of a part as it is long, or it cannot go deeper than what
+// touches may be.
 bool point_passes_through(const Obstacle& obstacle, const PlaceInStep& point, double from_lambda, double to_lambda,
                           double touching) {
-  constexpr int looks = 64;
-  const double before = obstacle.gap_slope(point.from, from_lambda).value;
-  const double behind = obstacle.gap_slope(point.to, to_lambda).value;
-  if (!(before > touching)) return false;
-  if (behind < -touching) return true;
-  const Vec2 a = obstacle.seen_at_rest(point.from, from_lambda), b = obstacle.seen_at_rest(point.to, to_lambda);
-  // It goes no farther than it would have to.
-  if (std::isfinite(before) && std::isfinite(behind) && before + behind > (b - a).norm()) return false;
-  for (int i = 1; i < looks; ++i) {
-    const double part = double(i) / looks, lambda = from_lambda + part * (to_lambda - from_lambda);
-    if (obstacle.gap_slope(point.from + part * (point.to - point.from), lambda).value < -touching) return true;
+  struct Look {
+    double part, gap, clearance;
+  };
+  const auto look = [&](double part) {
+    const Vec2 place = point.from + part * (point.to - point.from);
+    const double lambda = from_lambda + part * (to_lambda - from_lambda);
+    return Look{part, obstacle.gap_slope(place, lambda).value, obstacle.clearance(place, lambda)};
+  };
+  const Look from = look(0.0), to = look(1.0);
+  if (!(from.gap > touching)) return false;
+  if (to.gap < -touching) return true;
+  const double way =
+      (obstacle.seen_at_rest(point.to, to_lambda) - obstacle.seen_at_rest(point.from, from_lambda)).norm();
+  std::vector<std::pair<Look, Look>> unsure{{from, to}};
+  while (!unsure.empty()) {
+    const auto [first, last] = unsure.back();
+    unsure.pop_back();
+    if ((last.part - first.part) * way <= first.clearance + last.clearance + 2.0 * touching) continue;
+    const Look middle = look(0.5 * (first.part + last.part));
+    if (middle.gap < -touching) return true;
+    unsure.emplace_back(middle, last);
+    unsure.emplace_back(first, middle);
   }
   return false;
 }
 
-// The winding number of the way forth along the line before and back along that behind: over a place that was not swept
-// it is 0, and a half over one on which the line was.
-bool line_passes_through(const Obstacle& obstacle, const std::vector<PlaceInStep>& line, double from_lambda,
-                         double to_lambda) {
-  const auto core = obstacle.core();
-  if (!core || line.empty()) return false;
-  std::vector<Vec2> round;
-  for (const PlaceInStep& place : line) round.push_back(obstacle.seen_at_rest(place.from, from_lambda));
-  for (auto place = line.rbegin(); place != line.rend(); ++place)
-    round.push_back(obstacle.seen_at_rest(place->to, to_lambda));
-  return std::abs(winding_about(*core, round)) > 0.25;
+// What turns by less than a right angle stays within the circle about its chord.
+double turn_about(const Vec2& centre, const std::function<Vec2(double)>& line, double touching) {
+  struct Part {
+    double from, to;
+    Vec2 first, last;
+  };
+  double turn = 0.0;
+  std::vector<Part> parts{{0.0, 1.0, line(0.0) - centre, line(1.0) - centre}};
+  while (!parts.empty()) {
+    const Part part = parts.back();
+    parts.pop_back();
+    const double chord = (part.last - part.first).norm();
+    if (chord <= touching || distance_from_origin(part.first, part.last) > 0.5 * chord) {
+      turn += turn_between(part.first, part.last);
+      continue;
+    }
+    const double between = 0.5 * (part.from + part.to);
+    const Vec2 middle = line(between) - centre;
+    parts.push_back({part.from, between, part.first, middle});
+    parts.push_back({between, part.to, middle, part.last});
+  }
+  return turn;
 }
 
 }  // namespace arcwall

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <functional>
 
 #include "contact/obstacle.hpp"
 
@@ -20,12 +20,13 @@ inline bool curvature_jumps(double here, double there) {
 }
 
 /// Whether a point of the body that goes straight, as the obstacle sees it, enters the obstacle between two values of
-/// λ: it leaves it again, or is deeper inside in the end than what touches may be [length].
+/// λ: it leaves it again, or is deeper inside in the end than what touches may be [length]. The obstacle has other
+/// sides.
 bool point_passes_through(const Obstacle& obstacle, const PlaceInStep& point, double from_lambda, double to_lambda,
                           double touching);
 
-/// Whether the line through such places has swept over the core of a closed obstacle.
-bool line_passes_through(const Obstacle& obstacle, const std::vector<PlaceInStep>& line, double from_lambda,
-                         double to_lambda);
+/// By which angle the way along a line, from 0 to 1, goes round a place [rad]. The line turns by less than a right
+/// angle, and is known to what touches may be off by [length].
+double turn_about(const Vec2& centre, const std::function<Vec2(double)>& line, double touching);
 
 }  // namespace arcwall

@@ -69,7 +69,7 @@ class PolylineOutline final : public Outline {
       if (behind > 0.0 && radius > 0.0) sharpest_ = 1.0 / radius;
     }
     end_ = along;
-    if (is_closed && doubled_area(points) < 0.0) core_ = deepest_place(*this, this->points(0.0));
+    if (!is_closed || doubled_area(points) < 0.0) core_ = deepest_place(*this, this->points(0.0));
   }
 
   OutlineFoot foot(const Vec2& position) const override {
@@ -174,7 +174,8 @@ class PolylineOutline final : public Outline {
     return {.distance = perp(flank.tangent).dot(arm),
             .tangent = flank.tangent,
             .along = (last ? end_ : 0.0) + ahead,
-            .beyond = true};
+            .beyond = true,
+            .from_end = arm.norm()};
   }
 
   bool is_closed_;

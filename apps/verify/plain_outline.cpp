@@ -46,10 +46,12 @@ PlainOutline::PlainOutline(const deck::Wall& wall) : outline_(*wall.outline) {
   }
   if (const auto* polyline = std::get_if<deck::PolylineOutline>(&outline_)) {
     is_closed_ = polyline->closed;
+    stays_outside_ = polyline->keep == Keep::outside;
     make_parts(in_order(*polyline), is_closed_, wall.corner_radius);
   }
   if (const auto* curve = std::get_if<deck::CurveOutline>(&outline_)) {
     is_closed_ = curve->closed;
+    stays_outside_ = curve->keep == Keep::outside;
     make_curve(in_order(*curve), is_closed_);
   }
 }
@@ -69,6 +71,40 @@ PlainOutline::Nearest PlainOutline::nearest(const Vec2& point) const {
   }
   if (const auto* ellipse = std::get_if<deck::EllipseOutline>(&outline_)) return nearest_of_ellipse(*ellipse, point);
   return parts_.empty() ? nearest_of_curve(point) : nearest_of_parts(point);
+}
+
+// From the middle of each line, or between each two points of a curve, inwards as long as what is left is nearest.
+std::optional<Vec2> PlainOutline::innermost() const {
+  struct Line {
+    Vec2 middle, along;
+    double length;
+  };
+  std::vector<Line> lines;
+  for (const Part& part : parts_)
+    if (const Vec2 side = part.to - part.from; !part.is_arc && !side.isZero(0.0))
+      lines.push_back({.middle = 0.5 * (part.from + part.to), .along = side.normalized(), .length = side.norm()});
+  for (std::size_t i = 0; i + 1 < at_.size(); ++i) {
+    const OnCurve on = on_curve(0.5 * (at_[i] + at_[i + 1]));
+    lines.push_back({.middle = on.p, .along = on.first.normalized(), .length = at_[i + 1] - at_[i]});
+  }
+  if (const auto* circle = std::get_if<deck::CircleOutline>(&outline_); circle && circle->keep == Keep::outside)
+    return Vec2(circle->centre.x, circle->centre.z);
+  if (const auto* ellipse = std::get_if<deck::EllipseOutline>(&outline_); ellipse && ellipse->keep == Keep::outside)
+    return Vec2(ellipse->centre.x, ellipse->centre.z);
+  if (is_closed_ && !stays_outside_) return std::nullopt;
+  double whole = 0.0, depth = 0.0;
+  for (const Line& line : lines) whole += line.length;
+  std::optional<Vec2> deepest;
+  for (const Line& line : lines)
+    for (double far = line.length / 64.0; far <= whole; far *= 2.0) {
+      const Vec2 place = line.middle - far * perp(line.along);
+      const Nearest here = nearest(place);
+      if (here.beyond || -here.distance < 0.5 * far) break;
+      if (-here.distance <= depth) continue;
+      depth = -here.distance;
+      deepest = place;
+    }
+  return deepest;
 }
 
 // After Eberly ("Distance from a point to an ellipse", 2013): with y the point in the first quadrant of the axes and a

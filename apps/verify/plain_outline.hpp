@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/types.hpp"
@@ -21,6 +22,9 @@ class PlainOutline {
     bool beyond = false;     ///< beyond an end
   };
   Nearest nearest(const Vec2& point) const;
+
+  /// A place far inside the wall, behind its outline; empty of a straight line and where the body is inside.
+  std::optional<Vec2> innermost() const;
 
   /// Of what stands out of it, roughly; ∞ of a straight line [length].
   double width() const { return width_; }
@@ -47,7 +51,7 @@ class PlainOutline {
   OnCurve on_curve(double a) const;
 
   deck::Outline outline_;
-  bool is_closed_ = true;
+  bool is_closed_ = true, stays_outside_ = false;  // the latter of closed ones
   double width_ = infinity;
   std::vector<Part> parts_{};
   std::vector<double> at_{};             // parameters of the curve's points

@@ -88,14 +88,19 @@ class PlainWall {
   /// others [length].
   double from_vertical(const Vec2& point) const;
 
+  /// A place far inside an outline, as the wall is at rest.
+  std::optional<Vec2> innermost() const { return outline_ ? outline_->innermost() : std::nullopt; }
+
+  /// The point as the wall sees it, which moves and turns with λ.
+  Vec2 at_rest(const Vec2& point) const;
+
   bool concerns(const std::string& member) const;
 
  private:
   struct Surface {
     double height, slope, second;
   };
-  Surface surface(double x) const;        // of the wall at rest
-  Vec2 at_rest(const Vec2& point) const;  // the point as the wall sees it, which moves and turns with λ
+  Surface surface(double x) const;  // of the wall at rest
   double turned() const { return wall_.motion ? progress_ * wall_.motion->rotation : 0.0; }
 
   deck::Wall wall_;

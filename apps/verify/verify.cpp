@@ -7,6 +7,7 @@
 
 #include "apps/output/text_table.hpp"
 #include "apps/verify/counts.hpp"
+#include "apps/verify/passages.hpp"
 #include "apps/verify/point_checks.hpp"
 #include "apps/verify/rates.hpp"
 #include "apps/verify/shown_values.hpp"
@@ -200,6 +201,8 @@ class Verifier {
       if (!expected.unstable) ++uncounted_;
       if (record_.moves_supports && point.unstable_load_control)
         expected.unstable_load_control = unstable_load_control_range(at, zero);
+      if (number > 0 && record_.points[number - 1].branch == point.branch)
+        check_passages(model, walls_[static_cast<std::size_t>(stage)], record_.points[number - 1], point, findings);
       check_rates(model.watched(), record_.points, number, findings);
     }
     if (number < path_rows_.size()) {

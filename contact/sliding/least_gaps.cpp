@@ -294,36 +294,57 @@ std::optional<LeastGap> nearest_least_gap(const SlidingSetting& setting, const S
 
 namespace {
 
-// Of both states the same number of places: as many on each as the one has that is meshed more finely.
-std::vector<PlaceInStep> places_in_step(const SlidingState& from, const SlidingState& to, Index strand) {
-  constexpr int looks = 4;  // in an element
-  const Index count = looks * (std::max(from.mesh.nodes(strand), to.mesh.nodes(strand)) - 1);
-  const auto place = [&](const SlidingState& at, Index i) {
-    const Index elements = at.mesh.nodes(strand) - 1;
-    const double along = double(i) / double(count) * double(elements);
-    const Index element = std::min(static_cast<Index>(along), elements - 1);
-    return at.mesh.inside(strand, element, along - double(element), at.now).position;
-  };
-  std::vector<PlaceInStep> places;
-  for (Index i = 0; i <= count; ++i) places.push_back({.from = place(from, i), .to = place(to, i)});
-  return places;
+// A strand, as an obstacle at rest sees it in a state.
+struct SeenStrand {
+  const SlidingState& at;
+  const Obstacle& surface;
+  Index strand;
+
+  Vec2 place(Index element, double fraction) const {
+    return surface.seen_at_rest(at.mesh.inside(strand, element, fraction, at.now).position, at.now.lambda);
+  }
+  Index elements() const { return at.mesh.nodes(strand) - 1; }
+  Vec2 first() const { return place(0, 0.0); }
+  Vec2 last() const { return place(elements() - 1, 1.0); }
+
+  double turn_about(const Vec2& centre, double touching) const {
+    double turn = 0.0;
+    for (Index e = 0; e < elements(); ++e)
+      turn += arcwall::turn_about(
+          centre, [&](double fraction) { return place(e, fraction); }, touching);
+    return turn;
+  }
+};
+
+// Whether the way forth along a strand before and back along it behind goes round the core of an obstacle. The inside
+// is connected, and neither strand is in it: so they go round all places inside as often, as far as no end passes
+// through.
+bool goes_round_core(const SeenStrand& before, const SeenStrand& behind, double touching) {
+  const auto core = before.surface.core();
+  if (!core) return false;
+  const auto across = [&](const Vec2& from, const Vec2& to) { return turn_between(from - *core, to - *core); };
+  const double turn = before.turn_about(*core, touching) + across(before.last(), behind.last()) -
+                      behind.turn_about(*core, touching) - across(before.first(), behind.first());
+  return std::abs(turn) > 0.5 * pi;  // a whole turn, or half of one where a strand is on the core
 }
 
 }  // namespace
 
 bool passes_through(const SlidingSetting& setting, const SlidingState& from, const SlidingState& to) {
   const double touching = 1e-6 * setting.scales.length;
-  for (Index strand = 0; strand < setting.body.strands(); ++strand) {
-    std::vector<PlaceInStep> places;
+  for (Index strand = 0; strand < setting.body.strands(); ++strand)
     for (const SlidingObstacle& obstacle : setting.obstacles) {
-      if (!obstacle.surface->has_other_sides() || !obstacle.concerns(strand)) continue;
-      if (places.empty()) places = places_in_step(from, to, strand);
-      const double before = from.now.lambda, behind = to.now.lambda;
-      if (line_passes_through(*obstacle.surface, places, before, behind)) return true;
-      for (const PlaceInStep& end : {places.front(), places.back()})
-        if (point_passes_through(*obstacle.surface, end, before, behind, touching)) return true;
+      const Obstacle& surface = *obstacle.surface;
+      if (!surface.has_other_sides() || !obstacle.concerns(strand)) continue;
+      if (goes_round_core({from, surface, strand}, {to, surface, strand}, touching)) return true;
+      for (const bool last : {false, true}) {
+        const auto end = [&](const SlidingState& at) {
+          return at.mesh.node(strand, last ? at.mesh.nodes(strand) - 1 : 0, at.now).position;
+        };
+        if (point_passes_through(surface, {.from = end(from), .to = end(to)}, from.now.lambda, to.now.lambda, touching))
+          return true;
+      }
     }
-  }
   return false;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "contact/passing.hpp"
 #include "tests/support/dense.hpp"
 
 namespace arcwall::outline_test {
@@ -144,6 +145,48 @@ TEST(Outline, AClosedCurveHasNoSeam) {
       EXPECT_NEAR(foot_at(i, shift).distance, foot_at(0, shift).distance, 1e-14);
       EXPECT_NEAR(foot_at(i, shift).curvature, foot_at(0, shift).curvature, 1e-12);
     }
+}
+
+// Behind the outline, no end nearer: of a block with an open bottom as of one that is closed; of a long bed above a
+// flank no deeper than it is long.
+TEST(Outline, AnOpenOneHasAPlaceFarInsideToo) {
+  const std::vector<Vec2> block{{0.0, -2.8}, {0.0, 0.0}, {1.0, 0.0}, {1.0, -2.8}};
+  const std::vector<Vec2> bed{{-60.0, 0.0}, {-10.0, 0.0}, {-10.0, -5.0}};
+  const std::vector<Vec2> arch{{-1.0, 0.0}, {-0.7, 0.7}, {0.0, 1.0}, {0.7, 0.7}, {1.0, 0.0}};
+  const auto depth = [](const Outline& outline) {
+    const auto core = outline.core();
+    return core && !outline.foot(*core).beyond ? -outline.foot(*core).distance : 0.0;
+  };
+  EXPECT_GT(depth(*polyline_outline(block, 0.0)), 0.25);
+  EXPECT_LE(depth(*polyline_outline(block, 0.0)), 0.5);
+  EXPECT_GT(depth(*polyline_outline(bed, 0.0)), 5.0);
+  EXPECT_LE(depth(*polyline_outline(bed, 0.0)), 55.0);
+  EXPECT_GT(depth(*curve_outline(arch)), 0.25);
+}
+
+// However thin it is: a straight way through a fin, and one that passes its top by as much as the fin is thick.
+TEST(Outline, APointDoesNotPassThroughAThinWall) {
+  const double thick = 1e-4, touching = 1e-9;
+  for (const bool is_closed : {false, true}) {
+    const std::vector<Vec2> points{{0.0, -1.0}, {0.0, 0.0}, {thick, 0.0}, {thick, -1.0}};
+    const auto fin =
+        obstacle(is_closed ? std::shared_ptr<const Outline>(closed_polyline_outline(points, 0.0, Keep::outside))
+                           : std::shared_ptr<const Outline>(polyline_outline(points, 0.0)));
+    const auto passes = [&](const Vec2& from, const Vec2& to) {
+      return point_passes_through(*fin, {.from = from, .to = to}, 0.0, 0.0, touching);
+    };
+    EXPECT_TRUE(passes({-1.3, -0.2}, {1.0, -0.4}));
+    EXPECT_TRUE(passes({-1.3, -2.0 * thick}, {1.0, 0.0}));
+    EXPECT_FALSE(passes({-1.3, thick}, {1.0, thick}));
+    EXPECT_FALSE(passes({-1.3, -0.2}, {-2.0 * thick, -0.2}));
+  }
+}
+
+// The angle from one end of an arc to the other, also about a place beside it that is nearer than its chord.
+TEST(Outline, ALineGoesRoundAPlaceOnTheSideWhereItIs) {
+  const auto arc = [](double t) { return Vec2(t - 0.5, 0.4 * t * (1.0 - t)); };  // 0.1 high
+  EXPECT_NEAR(turn_about({0.0, 0.1001}, arc, 1e-9), 2.0 * std::atan2(0.5, 0.1001), 1e-12);
+  EXPECT_NEAR(turn_about({0.0, 0.0999}, arc, 1e-9), 2.0 * std::atan2(0.5, 0.0999) - 2.0 * pi, 1e-12);
 }
 
 }  // namespace arcwall::outline_test
