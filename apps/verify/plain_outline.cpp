@@ -182,9 +182,11 @@ PlainOutline::Nearest PlainOutline::nearest_of_parts(const Vec2& point) const {
       const Vec2 arm = point - part.centre, first = part.from - part.centre, last = part.to - part.centre;
       const double away = std::abs(arm.norm() - std::abs(part.radius));
       const bool is_sharp = part.radius == 0.0;
+      const Part &before = parts_[i - 1], &behind = parts_[(i + 1) % parts_.size()];
       const bool between =
-          is_sharp || (arm.dot(first + last) > 0.0 &&
-                       (first.x() * arm.y() - first.y() * arm.x()) * (arm.x() * last.y() - arm.y() * last.x()) >= 0.0);
+          is_sharp ? arm.dot(before.to - before.from) >= 0.0 && arm.dot(behind.to - behind.from) <= 0.0
+                   : arm.dot(first + last) > 0.0 &&
+                         (first.x() * arm.y() - first.y() * arm.x()) * (arm.x() * last.y() - arm.y() * last.x()) >= 0.0;
       if (!between || away > (1.0 + round_off) * least) continue;
       const double outside = part.radius >= 0.0 ? 1.0 : -1.0;
       least = away;

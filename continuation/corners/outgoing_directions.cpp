@@ -11,16 +11,18 @@ namespace arcwall {
 namespace {
 
 // The rate problem in the degenerate contacts' guards: ġ + c ṗ = σ a + M ṗ, c their compliances. σ is the rate of λ, or
-// where K with all of them open is nearly singular that of one of their gaps.
+// where K with all of them open is nearly singular that of one of their gaps. Of a large problem some contacts may be
+// held closed instead: ġ + c ṗ and ṗ change places there (a principal pivot), and complementarity stays.
 struct RateProblem {
-  State open{};                       // the corner with all degenerate contacts open
-  Direction free_rate{};              // for σ = 1 without degenerate forces
-  std::vector<Direction> response{};  // for unit degenerate forces
+  State open{};                       // the corner with all degenerate contacts open but those held
+  std::vector<bool> held{};           // of the degenerate contacts
+  Direction free_rate{};              // for σ = 1 without degenerate forces, nor gaps of those held
+  std::vector<Direction> response{};  // for unit degenerate forces, and unit gaps of those held
   Vector a{};
   Matrix M{};
 };
 
-// σ and the rates of the degenerate contacts' forces.
+// σ and the rates of the degenerate contacts' forces, of those held the rates of their gaps.
 struct Solution {
   double sigma;
   Vector p;
@@ -36,7 +38,8 @@ bool add_gap_rates(const UnilateralSystem& system, const std::vector<Index>& deg
     const Row gap = system.guard_gradient(problem.open, contact);
     problem.a[i] = apply(gap, problem.free_rate);
     for (Index j = 0; j < w; ++j) problem.M(i, j) = apply(gap, problem.response[static_cast<std::size_t>(j)]);
-    problem.M(i, i) += system.compliance(problem.open.active_set, contact);
+    if (!problem.held[static_cast<std::size_t>(i)])
+      problem.M(i, i) += system.compliance(problem.open.active_set, contact);
   }
   return problem.a.allFinite() && problem.M.allFinite();
 }
@@ -67,31 +70,74 @@ std::optional<RateProblem> reduce_by_gap(const UnilateralSystem& system, RatePro
   return problem;
 }
 
-std::optional<RateProblem> reduce(const UnilateralSystem& system, const State& corner,
-                                  const std::vector<Index>& degenerate, bool small, CornerWorkspace& workspace) {
-  RateProblem problem;
+// The force of an open contact, or the change of the equation of one that is held, by which its guard changes by one.
+Vector unit_cause(const UnilateralSystem& system, const State& corner, const State& open, Index contact) {
+  const auto force = system.multiplier_index(open.active_set, contact);
+  if (!force) return system.unit_force(open, contact);
+  const State all_open = system.with_active_set(corner, corner.active_set.all_open());
+  const double length = system.unit_force(all_open, contact).norm() /
+                        (system.guard_gradient(all_open, contact).dx.norm() * system.multiplier_scale());
+  return -length * Vector::Unit(open.x.size(), *force);
+}
+
+// With those contacts held; `unresisted` is the one whose motion is not told from round-off, if there is one.
+struct Reduced {
+  std::optional<RateProblem> problem{};
+  std::optional<std::size_t> unresisted{};
+};
+
+Reduced reduce_with_held(const UnilateralSystem& system, const State& corner, const std::vector<Index>& degenerate,
+                         std::vector<bool> held, CornerWorkspace& workspace) {
+  RateProblem problem{.held = std::move(held)};
   ActiveSet active_set = corner.active_set;
-  for (const Index j : degenerate) active_set[static_cast<std::size_t>(j)] = 0;
+  for (std::size_t i = 0; i < degenerate.size(); ++i)
+    active_set[static_cast<std::size_t>(degenerate[i])] = problem.held[i] ? 1 : 0;
   problem.open = system.with_active_set(corner, active_set);
   auto& [now, solver] = workspace;
   system.linearize(problem.open, now);
+  const auto first_open =
+      static_cast<std::size_t>(std::find(problem.held.begin(), problem.held.end(), false) - problem.held.begin());
   const FactorStatus status = solver.factorize(now, system.multiplier_count(active_set));
-  if (status == FactorStatus::not_finite) return std::nullopt;
+  if (status == FactorStatus::not_finite) return {};
   const auto w = static_cast<Index>(degenerate.size());
   Matrix right(now.F.size(), 1 + w);
   right.col(0) = -now.F_lambda;
   for (Index i = 0; i < w; ++i)
-    right.col(1 + i) = system.unit_force(problem.open, degenerate[static_cast<std::size_t>(i)]);
+    right.col(1 + i) = unit_cause(system, corner, problem.open, degenerate[static_cast<std::size_t>(i)]);
   Matrix X = right;
   if (status != FactorStatus::ok || !solver.solve_inner(X))
-    return small ? reduce_by_gap(system, std::move(problem), degenerate, 0, workspace) : std::nullopt;
+    return {.problem = std::move(problem), .unresisted = first_open};
   problem.free_rate = {.dx = X.col(0), .dlambda = 1.0};
   for (Index i = 0; i < w; ++i) problem.response.push_back({.dx = X.col(1 + i), .dlambda = 0.0});
-  if (!add_gap_rates(system, degenerate, problem)) return std::nullopt;
-  Index held = 0;
-  problem.M.diagonal().cwiseAbs().maxCoeff(&held);
-  if (!small || is_resisted_surely(solver.inner(), now, X.col(1 + held), right.col(1 + held))) return problem;
-  return reduce_by_gap(system, std::move(problem), degenerate, held, workspace);
+  if (!add_gap_rates(system, degenerate, problem)) return {};
+  std::size_t softest = first_open;
+  for (std::size_t i = first_open; i < degenerate.size(); ++i) {
+    const auto of = [&](std::size_t k) { return std::abs(problem.M(static_cast<Index>(k), static_cast<Index>(k))); };
+    if (!problem.held[i] && of(i) > of(softest)) softest = i;
+  }
+  Reduced reduced;
+  if (softest < degenerate.size()) {
+    const auto column = 1 + static_cast<Index>(softest);
+    if (!is_resisted_surely(solver.inner(), now, X.col(column), right.col(column))) reduced.unresisted = softest;
+  }
+  reduced.problem = std::move(problem);
+  return reduced;
+}
+
+// Where next to nothing resists without the degenerate contacts, of a small problem the rate of a gap takes the place
+// of that of λ; of a large one so many contacts are held that the structure resists whatever the others do.
+std::optional<RateProblem> reduce(const UnilateralSystem& system, const State& corner,
+                                  const std::vector<Index>& degenerate, bool small, CornerWorkspace& workspace) {
+  std::vector<bool> held(degenerate.size(), false);
+  for (;;) {
+    Reduced reduced = reduce_with_held(system, corner, degenerate, held, workspace);
+    if (!reduced.problem || !reduced.unresisted) return std::move(reduced.problem);
+    if (*reduced.unresisted >= degenerate.size()) return std::nullopt;
+    if (small)
+      return reduce_by_gap(system, std::move(*reduced.problem), degenerate, static_cast<Index>(*reduced.unresisted),
+                           workspace);
+    held[*reduced.unresisted] = true;
+  }
 }
 
 // The direction (σ, ṗ_A) with ġ_A + c ṗ_A = 0 and ṗ = 0 outside A: the null vector of [a_A M_AA], up to its length and
@@ -180,7 +226,7 @@ std::vector<Solution> pivoted(const RateProblem& problem) {
   const double scale = problem.M.cwiseAbs().maxCoeff();
   const Matrix M = problem.M / scale;
   std::vector<Vector> covers{Vector::Ones(w)};
-  if (Eigen::LLT<Matrix>(M).info() != Eigen::Success)
+  if (Eigen::LLT<Matrix>(0.5 * (M + M.transpose())).info() != Eigen::Success)
     for (Index j = 0; j < w; ++j) {
       covers.push_back(Vector::Ones(w));
       covers.back()[j] = 8.0;
@@ -213,15 +259,20 @@ std::vector<OutgoingDirection> direction_of(const UnilateralSystem& system, cons
     motion.dx += solution.p[i] * response.dx;
     motion.dlambda += solution.p[i] * response.dlambda;
   }
-  Vector gap_rate = solution.sigma * problem.a + problem.M * solution.p;
+  Vector p = solution.p, gap_rate = solution.sigma * problem.a + problem.M * solution.p;
+  for (std::size_t i = 0; i < problem.held.size(); ++i)
+    if (problem.held[i]) std::swap(p[static_cast<Index>(i)], gap_rate[static_cast<Index>(i)]);
   double length = std::hypot(motion.dx.norm() / greatest_motion(problem), solution.sigma);
   if (length == 0.0) length = std::abs(motion.dlambda);  // the load grows and nothing moves
   if (!(length > 0.0)) return {};
-  const Vector p = solution.p / length;
+  p /= length;
   gap_rate /= length;
   motion.dx /= length;
   motion.dlambda /= length;
-  const double g_zero = options.rate_tolerance * std::max(problem.a.cwiseAbs().maxCoeff(), 1e-300);
+  double most = 0.0;
+  for (Index i = 0; i < p.size(); ++i)
+    most = std::max(most, std::abs(problem.held[static_cast<std::size_t>(i)] ? gap_rate[i] : problem.a[i]));
+  const double g_zero = options.rate_tolerance * std::max(most, 1e-300);
   const double p_zero = options.rate_tolerance * std::max(p.cwiseAbs().maxCoeff(), 1e-300);
   if ((p.array() < -p_zero).any() || (gap_rate.array() < -g_zero).any()) return {};
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/support/toys.hpp"
 
@@ -184,6 +185,38 @@ TEST(Corner, PivotingFindsTheRaysOfEnumerationForManyContacts) {
       };
       EXPECT_EQ(std::count_if(enumerated.begin(), enumerated.end(), same), 1);
     }
+  }
+}
+
+// A heavy beam on two beds with a trench between them, which next to nothing else resists: that the whole beam moves
+// leaves nothing of how it bends in what resists with all contacts open. As λ grows the beds bear all of the weight,
+// less what is bent off them beside the trench; as it falls the beam is off both.
+TEST(Corner, PivotingHoldsABodyThatOnlyContactsHold) {
+  constexpr Index n = 41, middle = 20, trench = 6;
+  constexpr double bending = 1e6, spring = 1e-9;
+  Matrix D = Matrix::Zero(n - 2, n);
+  for (Index i = 0; i < n - 2; ++i) D.row(i).segment<3>(i) << 1.0, -2.0, 1.0;
+  LinearContactToy toy;
+  toy.A = bending * D.transpose() * D + spring * Matrix::Identity(n, n);
+  toy.f = -Vector::Ones(n);
+  toy.G = Matrix::Zero(n - 2 * trench + 1, n);
+  toy.gap0 = Vector::Zero(toy.G.rows());
+  Index contact = 0;
+  for (Index i = 0; i < n; ++i)
+    if (std::abs(i - middle) >= trench) toy.G(contact++, i) = 1.0;
+  const auto found = rays(toy, origin(toy), all(toy));
+  ASSERT_EQ(found.size(), 2U);
+  for (const OutgoingDirection& ray : found) {
+    const auto closed = static_cast<Index>(toy.closed(ray.active_set).size());
+    if (ray.direction.dlambda < 0.0) {
+      EXPECT_EQ(closed, 0);
+      continue;
+    }
+    expect_ray(toy, origin(toy), all(toy), ray);
+    const Vector forces = ray.direction.dx.tail(closed) / ray.direction.dlambda;
+    EXPECT_NEAR(forces.sum(), double(n), 1e-6 * double(n));
+    EXPECT_GT(closed, 4);
+    EXPECT_LT(closed, toy.contact_count());
   }
 }
 

@@ -189,4 +189,45 @@ sign = -1
   expect_confirmed(ring);
 }
 
+// A heavy pipe over a trench of length l is lifted off the ground for b on both sides of it, in small slopes:
+//
+//     b³ + 3 l b² − l³ = 0,     M = q l²/8 − q b²/4,     w = 5 q l⁴/(384 EI) − q b² l²/(32 EI)
+//
+// M and w at the middle. Contact at nodes knows b to an element. That the pipe moves as a whole resists only contact at
+// 82 nodes, all without force at the start.
+TEST(LooseBodies, AHeavyPipeThatLiesOnBothSidesOfATrenchSagsIntoIt) {
+  const TracedDeck traced(R"toml(
+title = "A pipe over a trench"
+units = { length = "m", force = "kN" }
+material.s = { E = 2.1e8 }
+section.r = { shape = "general", A = 0.01, I = 1e-5, height = 0.2 }
+point = { a = [-40.0, 0.1], b = [40.0, 0.1] }
+support = { a = ["x"] }
+member.p = { from = "a", to = "b", theory = "elastica", material = "s", section = "r", elements = 160 }
+load = [{ on = "p", distributed = [0.0, -1.0] }]
+wall = [
+  { name = "left", outline = { type = "polyline", x = [-60.0, -10.0, -10.0], z = [0.0, 0.0, -5.0] } },
+  { name = "right", outline = { type = "polyline", x = [10.0, 10.0, 60.0], z = [-5.0, 0.0, 0.0] } },
+]
+monitor = [
+  { name = "fl", wall = "left", component = "force-z" },
+  { name = "fr", wall = "right", component = "force-z" },
+  { name = "w", at = "p:0.5", component = "z", sign = -1 },
+  { name = "M", at = "p:0.5", component = "moment" },
+]
+contact = { points = "nodes" }
+path = { step = 0.05, stop = { lambda = [-0.1, 1.0] } }
+)toml");
+  expect_confirmed(traced);
+  const double l = 20.0, q = 1.0, EI = 2.1e3, element = 0.5;
+  const double b = l * (2.0 * std::cos(2.0 * pi / 9.0) - 1.0);
+  ASSERT_NEAR(b * b * b + 3.0 * l * b * b - l * l * l, 0.0, 1e-9);
+  const double of_moment = 0.5 * q * b * element;  // dM/db
+  const std::vector<double>& last = traced.record().points.back().monitors;
+  EXPECT_NEAR(last[0] + last[1], 80.0, 1e-5);
+  EXPECT_NEAR(last[2], 5.0 * q * std::pow(l, 4) / (384.0 * EI) - q * b * b * l * l / (32.0 * EI),
+              of_moment * l * l / (8.0 * EI));
+  EXPECT_NEAR(last[3], q * l * l / 8.0 - q * b * b / 4.0, of_moment);
+}
+
 }  // namespace arcwall::loading_test
