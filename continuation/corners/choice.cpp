@@ -82,7 +82,7 @@ std::optional<Index> count_along(TraceTools& tools, const OutgoingDirection& way
 }
 
 Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std::vector<OutgoingDirection> ways,
-              const PathPoint& at, const StabilityCount& before, double lambda_scale) {
+              const PathPoint& at, const StabilityCount& before, double lambda_scale, bool stands) {
   const ActiveSet open = at.state.active_set.all_open();
   const Metric metric = tools.metric_on(open, lambda_scale);
   const State here = tools.system.with_active_set(at.state, open);
@@ -112,10 +112,11 @@ Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std:
                        [&](const Direction& d) { return metric.inner(d, direction) > same_way; });
   });
   if (ways.empty()) {
-    choice.result = again ? BranchEnd{.reason = EndReason::closed_loop,
-                                      .detail = "the branch came back to a change of contact that it had passed"}
-                          : BranchEnd{.reason = EndReason::no_continuation,
-                                      .detail = "no equilibrium continues the path beyond the change of contact"};
+    choice.result = again && !stands
+                        ? BranchEnd{.reason = EndReason::closed_loop,
+                                    .detail = "the branch came back to a change of contact that it had passed"}
+                        : BranchEnd{.reason = EndReason::no_continuation,
+                                    .detail = "no equilibrium continues the path beyond the change of contact"};
     return choice;
   }
   ChosenDirection chosen = ways.size() == 1

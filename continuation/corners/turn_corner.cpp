@@ -146,7 +146,8 @@ std::optional<JointWay> leave_jointly(TraceTools& tools, const Corner& corner, c
     return !changes || count_along(tools, way, state) != Index{0};
   });
   if (ways.empty()) return std::nullopt;
-  Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.before, corner.lambda_scale);
+  Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.before, corner.lambda_scale,
+                         corner.without_progress > 0);
   const auto* const chosen = std::get_if<ChosenDirection>(&choice.result);
   if (chosen == nullptr) return std::nullopt;
   auto at = point_beside(tools, corner, chosen->taken);
@@ -177,7 +178,8 @@ CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> 
   }
   auto ways =
       outgoing_directions(tools.system, corner.at.state, degenerate, tools.options.corner, tools.corner_workspace);
-  Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.before, corner.lambda_scale);
+  Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.before, corner.lambda_scale,
+                         corner.without_progress > 0);
   const auto* const end = std::get_if<BranchEnd>(&choice.result);
   std::optional<PathPoint> at;
   if (!end) at = point_along(tools, corner, std::get<ChosenDirection>(choice.result));

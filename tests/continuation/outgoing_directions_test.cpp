@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/corners/choice.hpp"
 #include "tests/support/toys.hpp"
 
 namespace arcwall::corner_test {
@@ -271,6 +272,28 @@ TEST(Corner, ANearlySingularStiffnessKeepsBothWays) {
     const auto found = rays(toy, origin(toy), {0});
     ASSERT_EQ(found.size(), 2U) << stiffness;
     EXPECT_EQ(with_rising_lambda(found), stiffness < 0.0 ? 2 : 1) << stiffness;
+  }
+}
+
+// Once all ways that leave a corner are taken a path that comes back to it is a closed loop; one that has not moved
+// since has no continuation.
+TEST(Corner, APathThatStandsIsNoClosedLoop) {
+  const LinearContactToy toy = rate_problem(Matrix::Identity(2, 2), Vector{{1.0, -1.0}});
+  const State corner = origin(toy);
+  for (const bool stands : {false, true}) {
+    TraceTools tools(toy, TraceOptions{});
+    PathPoint at;
+    at.state = corner;
+    at.tangent = {.dx = Vector::Zero(2), .dlambda = 1.0};
+    std::vector<VisitedCorner> visited;
+    std::optional<BranchEnd> end;
+    for (int round = 0; round < 4 && !end; ++round) {
+      Choice choice = choose(tools, visited, rays(toy, corner, all(toy)), at, {}, 1.0, stands);
+      if (const auto* const found = std::get_if<BranchEnd>(&choice.result)) end = *found;
+      remember(visited, std::move(choice.visit));
+    }
+    ASSERT_TRUE(end.has_value());
+    EXPECT_EQ(end->reason, stands ? EndReason::no_continuation : EndReason::closed_loop);
   }
 }
 
