@@ -232,14 +232,14 @@ std::vector<Transition> SlidingContact::transitions(const State& state, const Di
 }
 
 bool SlidingContact::admissible(const State& state, double margin) const {
-  return !sliding::deepest_unwatched(*setting_, SlidingState(state), margin);
+  return sliding::unwatched_gaps(*setting_, SlidingState(state), margin).empty();
 }
 
 std::string SlidingContact::most_inadmissible(const State& state, double margin) const {
-  const auto deepest = sliding::deepest_unwatched(*setting_, SlidingState(state), margin);
-  if (!deepest) return {};
-  const auto [member, fraction] = setting_->body.label(deepest->at);
-  return words_of({.wall = setting_->obstacles[deepest->obstacle].name, .member = member, .fraction = fraction});
+  const auto gaps = sliding::unwatched_gaps(*setting_, SlidingState(state), margin);
+  if (gaps.empty()) return {};
+  const auto [member, fraction] = setting_->body.label(gaps.front().at);
+  return words_of({.wall = setting_->obstacles[gaps.front().obstacle].name, .member = member, .fraction = fraction});
 }
 
 std::optional<Transition> SlidingContact::with_inserted_contact(const State& from, const Direction& forward,
@@ -405,11 +405,12 @@ WallAction SlidingContact::wall_action(const State& state, const ContactsOfWall&
 }
 
 std::optional<SlidingContact::Entered> SlidingContact::entered(const State& state, double depth) const {
-  const auto deepest = sliding::deepest_unwatched(*setting_, SlidingState(state), -depth / scales().length);
-  if (!deepest) return std::nullopt;
-  const auto [member, fraction] = body().label(deepest->at);
-  return Entered{.label = {.wall = obstacles()[deepest->obstacle].name, .member = member, .fraction = fraction},
-                 .depth = -deepest->gap};
+  const auto gaps = sliding::unwatched_gaps(*setting_, SlidingState(state), -depth / scales().length);
+  if (gaps.empty()) return std::nullopt;
+  const sliding::LeastGap& deepest = gaps.front();
+  const auto [member, fraction] = body().label(deepest.at);
+  return Entered{.label = {.wall = obstacles()[deepest.obstacle].name, .member = member, .fraction = fraction},
+                 .depth = -deepest.gap};
 }
 
 std::vector<SlidingContact::PinchedPlace> SlidingContact::pinches() const {

@@ -68,11 +68,11 @@ bool is_unfit(const SlidingSetting& setting, const State& state, std::size_t poi
   const SlidingState at(state);
   return std::any_of(at.layout.bounds().begin(), at.layout.bounds().end(), [&](const auto& bound) {
     const auto* curvature = dynamic_cast<const CurvatureBound*>(bound.get());
-    const bool is_its_own = curvature != nullptr && curvature->point() == point;
-    const bool is_room = dynamic_cast<const RoomBound*>(bound.get()) != nullptr;
-    const bool is_tail = dynamic_cast<const TailBound*>(bound.get()) != nullptr;
-    if (!is_its_own && !is_room && !is_tail) return false;
-    return bound->value(setting, at) <= (is_tail ? between_meshes : 0.0);
+    const auto* room = dynamic_cast<const RoomBound*>(bound.get());
+    const auto* tail = dynamic_cast<const TailBound*>(bound.get());
+    const bool is_its_own = (curvature && curvature->point() == point) || (tail && tail->point() == point) ||
+                            (room && room->is_beside(at.layout, static_cast<Index>(point)));
+    return is_its_own && bound->value(setting, at) <= (tail ? between_meshes : 0.0);
   });
 }
 
@@ -87,22 +87,19 @@ bool is_at_sharp_corner(const SlidingSetting& setting, const SlidingState& at, c
   });
 }
 
-}  // namespace
-
-std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, const SlidingState& from,
-                                                const Direction& forward, const SlidingState& to, double margin) {
-  const auto violated = deepest_unwatched(setting, to, margin);
-  if (!violated) return std::nullopt;
-  const Index strand = violated->at.strand;
-  const auto start = nearest_least_gap(setting, from, *violated);
+// With a point at one least gap that is violated at the end of a step; empty where it cannot be one.
+std::optional<Transition> with_point_at(const SlidingSetting& setting, const SlidingState& from,
+                                        const Direction& forward, const LeastGap& violated) {
+  const Index strand = violated.at.strand;
+  const auto start = nearest_least_gap(setting, from, violated);
   const double nearby = 0.25 * setting.body.length(strand);
-  if (!start || std::abs(start->at.s - violated->at.s) > nearby) return std::nullopt;
+  if (!start || std::abs(start->at.s - violated.at.s) > nearby) return std::nullopt;
   if (is_followed(setting, from, *start)) return std::nullopt;
   if (is_at_sharp_corner(setting, from, *start)) return std::nullopt;
   std::size_t point = 0;
   Transition transition = remeshed(setting, from, forward, [&](LayoutEdit& edit, const SlidingState& at) {
     // The point follows the least gap, which may move along the member much faster than the body moves.
-    const double s = nearest_least_gap(setting, at, *violated).value_or(*start).at.s;
+    const double s = nearest_least_gap(setting, at, violated).value_or(*start).at.s;
     take_nodes_beside(start->at, edit);
     give_up_beside(start->at, start->obstacle, edit);
     const int undivided = edit.undivided_at(strand, s);
@@ -112,6 +109,16 @@ std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, c
   });
   if (is_unfit(setting, transition.guess.get(), point)) return std::nullopt;
   return transition;
+}
+
+}  // namespace
+
+// At the deepest least gap where a point can be: one that has none, as beside an end that touches, hides no other.
+std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, const SlidingState& from,
+                                                const Direction& forward, const SlidingState& to, double margin) {
+  for (const LeastGap& violated : unwatched_gaps(setting, to, margin))
+    if (auto transition = with_point_at(setting, from, forward, violated)) return transition;
+  return std::nullopt;
 }
 
 namespace {

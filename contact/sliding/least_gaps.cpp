@@ -264,16 +264,17 @@ double least_beside_end(const SlidingSetting& setting, const SlidingState& at, c
 
 // As an end that touches lies down, all gaps beside it come to nothing. That is watched by a guard of its own, so that
 // there the body must be inside.
-std::optional<LeastGap> deepest_unwatched(const SlidingSetting& setting, const SlidingState& at, double margin) {
+std::vector<LeastGap> unwatched_gaps(const SlidingSetting& setting, const SlidingState& at, double margin) {
   constexpr double inside = -1e-11;  // in the scale of guards
-  std::optional<LeastGap> deepest;
+  std::vector<LeastGap> found;
   for_each_least_gap(setting, at, Which::unwatched, [&](const LeastGap& least) {
-    if (least.gap >= margin * setting.scales.length || (deepest && least.gap >= deepest->gap)) return;
+    if (least.gap >= margin * setting.scales.length) return;
     const auto end = touching_end_beside(setting, at, least);
     if (end && least_beside_end(setting, at, *end) >= std::min(margin, inside) * setting.scales.length) return;
-    deepest = least;
+    found.push_back(least);
   });
-  return deepest;
+  std::stable_sort(found.begin(), found.end(), [](const LeastGap& a, const LeastGap& b) { return a.gap < b.gap; });
+  return found;
 }
 
 std::vector<LeastGap> least_gaps(const SlidingSetting& setting, const SlidingState& at) {

@@ -15,9 +15,9 @@ struct LeastGap {
   double gap = 0.0;  ///< [length]
 };
 
-/// The deepest of the least gaps below `margin` (in the scale of the guards) that no guard watches: beside contact
+/// The least gaps below `margin` (in the scale of the guards) that no guard watches, the deepest first: beside contact
 /// points, and where the body lies on the obstacle, guards say all.
-std::optional<LeastGap> deepest_unwatched(const SlidingSetting& setting, const SlidingState& at, double margin);
+std::vector<LeastGap> unwatched_gaps(const SlidingSetting& setting, const SlidingState& at, double margin);
 
 /// All of them, whether a guard watches them or not.
 std::vector<LeastGap> least_gaps(const SlidingSetting& setting, const SlidingState& at);

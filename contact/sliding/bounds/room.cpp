@@ -13,6 +13,11 @@ Row RoomBound::gradient(const SlidingSetting& setting, const SlidingState& at) c
   return elements_wanted_gradient(setting, at, segment_, 1.0);
 }
 
+bool RoomBound::is_beside(const SlidingContactLayout& on, Index point) const {
+  const SlidingContactLayout::Segment& segment = on.segments()[segment_];
+  return segment.first_point == point || segment.last_point == point;
+}
+
 // Of open points the one behind is given up first: if both are, the other's bound says so next.
 std::vector<Transition> RoomBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                const Arrival& arrival) const {

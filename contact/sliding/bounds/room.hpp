@@ -14,6 +14,9 @@ class RoomBound final : public BoundOfSegment {
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
+
+  /// Whether a point is at one end of it.
+  bool is_beside(const SlidingContactLayout& on, Index point) const;
 };
 
 }  // namespace arcwall::sliding
