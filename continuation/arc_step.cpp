@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "continuation/corners/corner.hpp"
+#include "continuation/corners/first_point.hpp"
 #include "continuation/events/eigenvalue_touch.hpp"
 #include "continuation/events/step_events.hpp"
 #include "continuation/events/target_values.hpp"
@@ -21,21 +22,25 @@ namespace {
 
 // To the first point of an active set that was entered, or to where a guard vanishes before it: the pressure of a
 // pressed part that falls from its beginning, say. What is violated by no more than where active sets are entered may
-// stay so.
+// stay so. Where a wall is between, the way there is taken in steps.
 StepTried step_to_known_end(TraceTools& tools, const StepOrigin& origin) {
+  const auto accepted = [&](StepEnd end) -> StepTried {
+    if (is_clear(tools, origin.point().state, end.point.state)) return {.result = std::move(end)};
+    return {.result = Rejected{.outcome = StepOutcome::penetration}};
+  };
   StepEnd end{.point = *origin.from.known_end};
   const Vector& guards = end.point.guards;
-  if (guards.size() == 0 || guards.minCoeff() >= -tools.options.guard_tolerance) return {.result = std::move(end)};
+  if (guards.size() == 0 || guards.minCoeff() >= -tools.options.guard_tolerance) return accepted(std::move(end));
   LandedStep landed = land_on_first_guard(tools, origin, end);
   if (landed.end && landed.end->landing) {
     decide_count(tools, landed.end->point);
     if (landed.end->landing->singular) landed.end->point.negative_eigenvalues.reset();
-    return {.result = std::move(*landed.end)};
+    return accepted(std::move(*landed.end));
   }
   bool holds = true;
   for (Index j = 0; j < guards.size(); ++j)
     holds = holds && guards[j] >= -tools.options.mesh_error_of(end.point.state.active_set, j);
-  if (holds) return {.result = std::move(end)};
+  if (holds) return accepted(std::move(end));
   return {.result = Rejected{.outcome = StepOutcome::event_not_located, .failure = landed.failure}};
 }
 

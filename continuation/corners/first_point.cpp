@@ -121,8 +121,11 @@ bool guards_hold(const TraceTools& tools, const State& state, const Direction& f
 }
 
 // Whether the side conditions hold at the first point behind a transition; behind one of the mesh they are the same.
-bool holds(const TraceTools& tools, const Transition& transition, const State& state, const Direction& forward) {
+// What is touched before that point where it has a length is found by the step to it.
+bool holds(const TraceTools& tools, const Transition& transition, const State& from, const State& state,
+           const Direction& forward) {
   if (!tools.system.admissible(state, -penetration_tolerance)) return false;
+  if (!begins_with_length(transition) && tools.system.passes_through(from, state)) return false;
   return transition.change == Transition::Change::remeshed ||
          guards_hold(tools, state, forward, tools.system.guards(state));
 }
@@ -214,6 +217,10 @@ bool value_lies_behind_turn(const std::vector<TargetValue>& targets, const PathP
 
 }  // namespace
 
+bool is_clear(const TraceTools& tools, const State& from, const State& to) {
+  return tools.system.admissible(to, -penetration_tolerance) && !tools.system.passes_through(from, to);
+}
+
 bool holds_at(const TraceTools& tools, const PathPoint& at) {
   return tools.system.admissible(at.state, -penetration_tolerance) &&
          guards_hold(tools, at.state, at.tangent, at.guards);
@@ -232,10 +239,11 @@ Beginning begin_of(TraceTools& tools, const Transition& transition, const PathPo
   const double least = (1.0 - roundoff) * std::max(shortest * whole, transition.least);
   double length = whole, kept = 0.5;
   const auto is_sure = [&] { return kept * length >= least; };
-  const auto has_value = [&] {
-    return kept * length >= tiny * whole && value_lies_behind_turn(tools.options.target_values, from, begin.state);
+  const auto leaps = [&] {
+    return kept * length >= tiny * whole && (value_lies_behind_turn(tools.options.target_values, from, begin.state) ||
+                                             !is_clear(tools, from.state, begin.state));
   };
-  while (kept < most_kept && (is_sure() || has_value())) {
+  while (kept < most_kept && (is_sure() || leaps())) {
     auto nearer = with_span(tools, transition, metric, begin, kept * length);
     if (!nearer) {
       kept = 0.5 * (1.0 + kept);
@@ -261,7 +269,7 @@ std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, 
                                double lambda_scale, Effort effort) {
   const Ahead ahead = ahead_of(tools, transition, lambda_scale);
   CorrectorResult result = arrive(tools, transition, from, ahead, effort);
-  if (!result.converged() || !holds(tools, transition, result.state, ahead.along)) return std::nullopt;
+  if (!result.converged() || !holds(tools, transition, from.state, result.state, ahead.along)) return std::nullopt;
   return entered_point(tools, transition, ahead, std::move(result), from.arc);
 }
 
@@ -308,7 +316,7 @@ std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transi
   if (transition.quantity->value(begin.state) > shortened_early * transition.value) return std::nullopt;
   if (!begins_within(tools.system, *transition.quantity, begin, tools.options.guard_tolerance)) return std::nullopt;
   if (is_beyond_mesh(tools.system, begin, mesh_error)) return std::nullopt;
-  return tools.system.admissible(begin.state, -penetration_tolerance) ? std::optional(std::move(first)) : std::nullopt;
+  return is_clear(tools, from.state, begin.state) ? std::optional(std::move(first)) : std::nullopt;
 }
 
 // Behind a transition an active set with a span at whose first length another bound is passed already, or which is not

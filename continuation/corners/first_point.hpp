@@ -33,14 +33,17 @@ struct Entered {
 
 /// Where an active set begins whose first point has a new span of some length: it is followed back towards spans of no
 /// length as long as it is followed surely, and holds, to a sixteenth; of shorter spans neither forces nor counts are
-/// sure. Only values that are met nowhere else are followed farther. So the first point is reached by a step like any
-/// other.
+/// sure. Where a value that is met nowhere else or a wall comes before that, it is followed farther. So the first point
+/// is reached by a step like any other.
 Beginning begin_of(TraceTools& tools, const Transition& transition, const PathPoint& first, const PathPoint& from,
                    double lambda_scale);
 
 /// The first point of the active set behind a transition, with its count. Empty if none is found.
 std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, const PathPoint& from,
                                double lambda_scale, Effort effort = Effort::usual);
+
+/// Whether no wall is passed on the way from one state to another, nor entered at its end.
+bool is_clear(const TraceTools& tools, const State& from, const State& to);
 
 /// Whether the side conditions hold at the first point of an active set, but for bounds of its mesh.
 bool holds_at(const TraceTools& tools, const PathPoint& at);

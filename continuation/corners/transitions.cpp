@@ -156,6 +156,12 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
       if (!entered->begin)
         entered->begin = begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);
       PathPoint& begin = entered->begin->at;
+      if (!is_clear(tools, passed.at.state, begin.state)) {
+        passed.end = {.reason = EndReason::not_modelled,
+                      .detail = with_place("a member reaches a wall where its contact cannot be followed",
+                                           tools.system.watched_place(passed.at.state, bound))};
+        return passed;
+      }
       std::optional<BranchPoint> pitchfork;
       const bool changes_count = changes_count_at_corner(corner, passed.at, begin);
       if (changes_count) pitchfork = pitchfork_at_corner(tools, corner, begin);

@@ -92,4 +92,15 @@ TEST(Rollers, ThatTouchTogetherAllHold) {
   }
 }
 
+// The strip swings about w1 until it comes to w2, before contact has moved along it by what a span begins with.
+TEST(Rollers, ARollerIsMetWhileTheStripSwings) {
+  for (const double gap : {1.0, 2.0, 5.0}) {
+    SCOPED_TRACE(gap);
+    const Strip strip{.joint = -100.0, .before = 12, .behind = 32, .east_gap = gap};
+    const Forces held = forces_in_one(strip);
+    EXPECT_GT(held.east, 1.0);
+    expect_forces(strip.deck(), held, 2e-4 * -held.above);
+  }
+}
+
 }  // namespace arcwall::rollers_test
