@@ -305,6 +305,35 @@ TEST(Verify, APegBetweenTwoNodesIsSeen) {
       << verdict.findings.first()->what;
 }
 
+// A peg between two places that a strip has one after the other, both of them clear of it.
+TEST(Verify, APegThatAStripPassesIsSeen) {
+  const TracedDeck traced(strip_above(R"({ type = "circle", centre = [0.65, -9.0], radius = 0.005 })"),
+                          {"path.step=1.0", "path.max_step=1.0"});
+  const std::vector<RecordPoint>& points = traced.record().points;
+  const auto depth = [&](std::size_t i) {
+    const SlidingMesh& mesh = sliding_layout(points[i].state.active_set).mesh();
+    return -mesh.place({.strand = 0, .s = 0.65}, mesh_state_of(points[i].state)).position.y();
+  };
+  std::size_t last = 1;  // of the longest step
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (depth(i) - depth(i - 1) > depth(last) - depth(last - 1)) last = i;
+  const double between = 0.5 * (depth(last - 1) + depth(last)), radius = 0.001;
+  ASSERT_GT(0.5 * (depth(last) - depth(last - 1)), 0.01 + 2.0 * radius);
+  const auto verdict_beside = [&](double depth_of_peg) {
+    const std::string profile = R"(side = "below", profile = {})";
+    std::string deck = strip_above("{}");
+    deck.replace(
+        deck.find(profile), profile.size(),
+        fmt::format(R"(outline = {{ type = "circle", centre = [0.65, {}], radius = {} }})", -depth_of_peg, radius));
+    const Model with_peg(deck::read_deck_text(deck, "deck.toml", {}));
+    return verify(with_peg, traced.record(), stored_files_of(traced.record()), "checkpoint");
+  };
+  const auto found = verdict_beside(between).findings.first();
+  ASSERT_TRUE(found.has_value());
+  EXPECT_TRUE(found->what.starts_with("no wall is passed through between two points: strip ")) << found->what;
+  EXPECT_EQ(found->step, points[last].step);
+}
+
 // What increments leave is no equilibrium, and is said not to be checked.
 TEST(Verify, IncrementsAreCheckedAgainstTheirFilesAlone) {
   const TracedDeck traced(example("channel"),
