@@ -48,12 +48,11 @@ double curvature_touched(const PlainWall& wall, const Vec2& face, double half_he
   return std::isfinite(surface) ? surface / (1.0 - off * surface) : -1.0 / off;
 }
 
-// The spring c = p Λ_f/|κ − Λ_f κ_w| of (8.8) on the tilt, by what the element on the free side carries: κ = κ₀ + M/EI,
-// Λ = 1 + N/EA. What touches a profile is the face at the offset o, stretched by Λ_f = Λ − o κ; what touches an outline
-// is the axis.
-std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, const SlidingNode& node,
-                                     std::size_t point, double force) {
-  const bool before = at.on.span_before(point) == Span::free;
+// The spring c = p Λ_f/|κ − Λ_f κ_w| of (8.8) on the tilt, by what the element before the node, or behind it, carries:
+// κ = κ₀ + M/EI, Λ = 1 + N/EA. What touches a profile is the face at the offset o, stretched by Λ_f = Λ − o κ; what
+// touches an outline is the axis.
+std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, const SlidingNode& node, bool before,
+                                     double force) {
   const double sign = before ? 1.0 : -1.0;
   const auto ends = at.mesh.end_forces(node.strand, before ? node.position - 1 : node.position, at.now);
   const Eigen::Vector3d& end = ends[before ? 1 : 0];
@@ -111,9 +110,33 @@ Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wal
     tangency.end_of_pressed = true;
     return tangency;
   }
-  tangency.spring = touch.closed ? contact_spring(*at, wall, node, *point, touch.force) : 0.0;
+  tangency.spring =
+      touch.closed ? contact_spring(*at, wall, node, at->on.span_before(*point) == Span::free, touch.force) : 0.0;
   tangency.unresolved = touch.closed && is_unresolved(*at, node.strand);
   return tangency;
+}
+
+// Whether a strand's end is at a joint through which the axis and the face go on as they are.
+bool goes_on(const Sliding& at, Index strand, bool last) {
+  constexpr double in_line = 1e-9;  // [rad]
+  const auto other = at.body.joined_end(strand, last);
+  if (!other || at.body.half_height(other->strand) != at.body.half_height(strand)) return false;
+  const auto position = [&](Index of, bool end) { return end ? at.mesh.nodes(of) - 1 : Index{0}; };
+  const Index here = position(strand, last), there = position(other->strand, other->last);
+  const double turn = at.mesh.node(strand, here, at.now).angle - at.mesh.node(other->strand, there, at.now).angle +
+                      (last == other->last ? pi : 0.0);
+  return at.mesh.node_unknowns(strand, here)[2] == at.mesh.node_unknowns(other->strand, there)[2] &&
+         std::abs(std::remainder(turn, 2.0 * pi)) <= in_line;
+}
+
+// Of a contact at such a joint: it slides into the one strand or the other as soon as the axis tilts.
+Tangency tangency_at_joint(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const Touch& touch,
+                           const SlidingNode& node, bool last) {
+  Tangency passed = tangency(at, wall, touch, node, std::nullopt);
+  passed.end_of_pressed = false;
+  passed.spring = contact_spring(*at, wall, node, last, touch.force);
+  passed.unresolved = is_unresolved(*at, node.strand);
+  return passed;
 }
 
 // The pinch of a wall that is nearest a place.
@@ -215,10 +238,14 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
     touches.tangencies.back().moment = state.x[moments - static_cast<Index>(tips.size() - i)];
   }
   const auto ends = model.sliding()->ends();
-  for (std::size_t i = 0; i < ends.size(); ++i)
-    add(wall_of_obstacle(*at, walls, ends[i].obstacle),
-        {.strand = ends[i].strand, .position = ends[i].last ? at->mesh.nodes(ends[i].strand) - 1 : 0},
-        state.active_set[points.size() + i] != 0);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const auto& [strand, last, obstacle] = ends[i];
+    const SlidingNode node{.strand = strand, .position = last ? at->mesh.nodes(strand) - 1 : 0};
+    const PlainWall& wall = wall_of_obstacle(*at, walls, obstacle);
+    const Touch& touch = add(wall, node, state.active_set[points.size() + i] != 0);
+    if (touch.closed && goes_on(*at, strand, last))
+      touches.tangencies.push_back(tangency_at_joint(at, wall, touch, node, last));
+  }
   for (const SlidingContactLayout::PressedNode& node : at->on.pressed_nodes()) {
     add(wall_of_obstacle(*at, walls, node.obstacle), {.strand = node.strand, .position = node.position}, true);
     touches.all.back().listed = false;

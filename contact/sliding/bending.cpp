@@ -97,6 +97,15 @@ CurvatureGap end_curvature_gap_gradient(const SlidingSetting& setting, const Sli
                                     at.mesh.end_strain_gradient(end.strand, end.last, at.now));
 }
 
+double slide_by_tilt(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  const Touch touch = touch_of_end(setting, at.layout, end);
+  const FacedWall faced(setting, at, touch);
+  const AxisStrain strain = at.mesh.end_strain(end.strand, end.last, at.now);
+  const double curvature = faced.along * strain.curvature, of_face = strain.stretch - touch.offset * curvature;
+  const double opening = faced.side * (curvature - of_face * faced.curvature.value);
+  return opening > 0.0 ? of_face / opening : 0.0;
+}
+
 double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   return obstacle_curvature(setting, at, touch_of_contact(setting, at.layout, point));
 }

@@ -17,6 +17,10 @@ double gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, 
 /// The same at an end of a strand that touches the obstacle tangentially.
 double end_curvature_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
+/// By how much a contact at an end that touches tangentially slides when the axis tilts there, by the tilt: 1/|κ − Λ_f
+/// κ_w| times Λ_f of (8.8) [length]. 0 where the body bends with the obstacle, or more.
+double slide_by_tilt(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+
 /// The curvature of the curve on which the axis lies whose face, by `offset` along the normal, lies on a wall.
 constexpr double parallel_curvature(double offset, double of_wall) { return of_wall / (1.0 + offset * of_wall); }
 

@@ -5,6 +5,7 @@
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/neutral_spans.hpp"
 #include "contact/sliding/pinches.hpp"
+#include "contact/sliding/tips.hpp"
 #include "contact/sliding/touch.hpp"
 #include "core/algebra/assembly.hpp"
 
@@ -61,6 +62,21 @@ template <typename Visit>
 void for_each_free_direction(const SlidingSetting& setting, const SlidingState& at, const Visit& visit) {
   for (const std::size_t k : at.layout.pinched_points())
     if (!holds_direction(setting, at.layout, k)) visit(at.index.moment(static_cast<Index>(k)));
+}
+
+// visit(tilt of the axis against the obstacle, the node's unknowns, c) for all contacts at joints where the face goes
+// on from one strand into the next: contact leaves such a joint as soon as the axis tilts, so that up to there it
+// resists the tilt like a spring, by (8.8).
+template <typename Visit>
+void for_each_joint_passed(const SlidingSetting& setting, const SlidingState& at, const Visit& visit) {
+  const std::size_t points = at.layout.points().size();
+  for (std::size_t j = 0; j < setting.free_ends.size(); ++j) {
+    const FreeEnd& end = setting.free_ends[j];
+    if (!at.is_closed(points + j) || !face_goes_on(setting, at, end)) continue;
+    const Touch touch = touch_of_end(setting, at.layout, end);
+    const double c = at.force(points + j) * slide_by_tilt(setting, at, end);
+    visit(touch_gap(setting, touch, at).tilt, unknowns_at(touch, at), c);
+  }
 }
 
 double compliance(const SlidingSetting& setting) { return 1.0 / (setting.scales.force * setting.scales.length); }
@@ -237,6 +253,9 @@ void residual(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<
   for_each_constraint(setting, at, [&](const auto& function, const Touch& touch, Index multiplier) {
     add_to_residual(function(), unknowns_at(touch, at), multiplier, at, F);
   });
+  for_each_joint_passed(setting, at, [&](const NodeFunction& tilt, const NodeUnknowns& unknowns, double c) {
+    add_at_node(unknowns, c * tilt.value * tilt.gradient, F);
+  });
   for_each_free_direction(setting, at, [&](Index m) { F[m] = -at.state.x[m] * compliance(setting); });
   for (Index k = 0; k < at.index.points; ++k) F[at.index.coordinate(k)] = border_equation(setting, at, k).value;
 }
@@ -256,6 +275,11 @@ void linearize(const SlidingSetting& setting, const SlidingState& at, Linearizat
     const NodeUnknowns unknowns = unknowns_at(touch, at);
     add_to_residual(constraint, unknowns, multiplier, at, out.F);
     add_constraint(constraint, unknowns, multiplier, at, out);
+  });
+  for_each_joint_passed(setting, at, [&](const NodeFunction& tilt, const NodeUnknowns& unknowns, double c) {
+    add_at_node(unknowns, c * tilt.value * tilt.gradient, out.F);
+    add_hessian(unknowns, tilt.gradient * tilt.gradient.transpose() + tilt.value * tilt.hessian, -c, out.K);
+    add_at_node(unknowns, c * (tilt.rate * tilt.gradient + tilt.value * tilt.gradient_rate), out.F_lambda);
   });
   for_each_free_direction(setting, at, [&](Index m) {
     out.F[m] = -at.state.x[m] * compliance(setting);

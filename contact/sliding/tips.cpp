@@ -189,6 +189,15 @@ void erase_before_end(const SlidingSetting& setting, const StrandEnd& end, bool 
 
 }  // namespace
 
+bool face_goes_on(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  const auto other = setting.body.joined_end(end.strand, end.last);
+  if (!other || beyond_end(setting, at, end) != Beyond::same_face) return false;
+  const auto rotation = [&](const FreeEnd& seen) {
+    return at.mesh.node_unknowns(seen.strand, seen.position(at.mesh))[2];
+  };
+  return rotation(end) == rotation(end.seen_from(*other));
+}
+
 double put_on_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
   const Touch touch = touch_of_end(setting, at.layout, end);
   const Obstacle& surface = *setting.obstacles[end.obstacle].surface;

@@ -10,6 +10,9 @@
 
 namespace arcwall::sliding {
 
+/// Whether an end is at a joint beyond which the face that touches goes on in line, and turns with it.
+bool face_goes_on(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+
 /// What point loads and springs put on an end that touches, into the obstacle [force]; and its derivatives by the
 /// unknowns and λ.
 double put_on_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);

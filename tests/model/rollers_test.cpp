@@ -1,4 +1,4 @@
-// A strip in line over a joint that a support holds along x, among rollers: the one that presses on the
+// A strip in line over a joint that a support or a spring holds along x, among rollers: the one that presses on the
 // joint touches it together with others elsewhere.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 namespace arcwall::rollers_test {
 namespace {
 
+using test::events_of;
 using test::traced;
 
 constexpr double EI = 2.1e5 * 20.0 * 64.0 / 12.0;
@@ -100,6 +101,25 @@ TEST(Rollers, ARollerIsMetWhileTheStripSwings) {
     const Forces held = forces_in_one(strip);
     EXPECT_GT(held.east, 1.0);
     expect_forces(strip.deck(), held, 2e-4 * -held.above);
+  }
+}
+
+// What slides under the peg stretches the spring alone: nothing gives way.
+TEST(Rollers, ASpringAtAJointLeavesContactFreeToSlide) {
+  for (const double stiffness : {0.01, 0.1, 10.0}) {
+    SCOPED_TRACE(stiffness);
+    const Session run = traced(
+        "title = \"a peg above a spring\"\nsupport = { a = [\"z\"], b = [\"z\"] }\n"
+        "path = { step = 0.05, stop = { lambda = [-0.1, 1.0] } }\nmaterial.s = { E = 2.1e5 }\n"
+        "section.r = { shape = \"rectangle\", width = 20.0, height = 4.0 }\n"
+        "point = { a = [-220.0, 0.0], c = [0.0, 0.0], b = [220.0, 0.0] }\n" +
+        member("l", "a", "c", 16) + member("r", "c", "b", 16) + roller(3, 0.0, 7.5, -6.5) +
+        fmt::format("[[spring]]\nat = \"c\"\nstiffness = {{ x = {} }}\n", stiffness));
+    const RecordPoint& last = run.record().points.back();
+    EXPECT_EQ(last.lambda, 1.0);
+    EXPECT_TRUE(events_of(run.record(), EventKind::branch_point).empty());
+    for (const RecordPoint& point : run.record().points) EXPECT_EQ(point.count.unstable.value_or(0), 0);
+    EXPECT_NEAR(last.monitors[0], -48.0 * EI * 6.0 / (440.0 * 440.0 * 440.0), 0.1);
   }
 }
 
