@@ -9,6 +9,7 @@
 #include "continuation/events/branch_point.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/stability.hpp"
+#include "continuation/stops.hpp"
 #include "core/turns.hpp"
 
 namespace arcwall {
@@ -67,17 +68,22 @@ bool mirror_images(const std::vector<TriedWay>& ways) {
   return nearly_equal(a.lambda, b.lambda, 0.0) && nearly_equal(ways[0].energy, ways[1].energy, 0.0);
 }
 
-// The side on which the first of the quantities that changes increases.
-int preferred_sign(const std::vector<std::shared_ptr<const Observable>>& preference, const BranchPoint& point,
-                   const std::vector<TriedWay>& ways, const Metric& metric) {
-  constexpr double changes = 1e-6;  // of the distance stepped
-  for (const auto& quantity : preference) {
-    const Row row = quantity->gradient(point.state);
-    const double norm = metric.dual_norm(row);
-    const double rate = norm > 0.0 ? row.dx.dot(point.other.dx) / norm : 0.0;
-    if (std::abs(rate) > changes) return rate > 0.0 ? 1 : -1;
+// Whether the structure follows a way off a stable branch while λ goes on: else it jumps.
+bool is_followed(const BranchPoint& point, const TriedWay& way) {
+  return way.count.unstable == Index{0} && (way.step.state.lambda - point.state.lambda) * point.along.dlambda > 0.0;
+}
+
+// The event at which a stable structure loses its stability; of several the one at which λ turns or branches meet.
+const Event* loss_of_stability(const std::vector<Event>& events) {
+  const Event* found = nullptr;
+  for (const Event& event : events) {
+    const bool is_inside = event.kind != EventKind::start && event.kind != EventKind::end && !event.unconfirmed;
+    if (!is_inside || event.unstable_before != Index{0} || event.unstable_after.value_or(0) == 0) continue;
+    const bool singular = event.kind == EventKind::limit_point || event.kind == EventKind::contact_limit_point ||
+                          event.kind == EventKind::branch_point;
+    if (found == nullptr || singular) found = &event;
   }
-  return ways.front().sign;  // along the mode, whose largest component is positive
+  return found;
 }
 
 // No farther than where the way is known to be free: the first step must not find a wall ahead, for whose sake its
@@ -117,6 +123,18 @@ bool is_known(const System& system, const std::vector<KnownPoint>& known, const 
 
 }  // namespace
 
+std::optional<int> preferred_sense(const std::vector<std::shared_ptr<const Observable>>& preference, const State& state,
+                                   const Vector& direction, const Metric& metric) {
+  constexpr double changes = 1e-6;  // of the distance stepped
+  for (const auto& quantity : preference) {
+    const Row row = quantity->gradient(state);
+    const double norm = metric.dual_norm(row);
+    const double rate = norm > 0.0 ? row.dx.dot(direction) / norm : 0.0;
+    if (std::abs(rate) > changes) return rate > 0.0 ? 1 : -1;
+  }
+  return std::nullopt;
+}
+
 Explorer::Explorer(const System& system, State start, TraceOptions trace, std::vector<Watch> watched,
                    ExploreOptions options)
     : system_(system), trace_(std::move(trace)), watched_(std::move(watched)), options_(std::move(options)) {
@@ -125,8 +143,10 @@ Explorer::Explorer(const System& system, State start, TraceOptions trace, std::v
 }
 
 std::optional<Explorer::Step> Explorer::next() {
+  std::optional<BranchEnd> ends;
   for (;;) {
     if (stopped_) return std::nullopt;
+    if (lost_ && !not_left_ && !tracer_->end()) jump(*lost_);
     if (!tracer_) {
       if (queue_.empty()) return std::nullopt;
       Queued queued = std::move(queue_.front());
@@ -135,13 +155,16 @@ std::optional<Explorer::Step> Explorer::next() {
       queued.record.id = current_;
       queued.start.known = known_;
       branches_.push_back(queued.record);
+      ends = std::move(queued.ends);
       tracer_ = make_tracer(std::move(queued.start));
     }
     if (auto arc = tracer_->next()) {
       lambda_scale_ = tracer_->lambda_scale();
+      if (ends) tracer_->stop(*ends);
       if (not_left_) look_behind(*std::exchange(not_left_, std::nullopt), *arc);
       for (const Event& event : arc->events)
         if (event.branching) look_at(event);
+      look_for_loss(*arc);
       return Step{.branch = current_, .arc = std::move(*arc)};
     }
     branches_[static_cast<std::size_t>(current_)].end = tracer_->end();
@@ -149,6 +172,8 @@ std::optional<Explorer::Step> Explorer::next() {
       drop_arrived_at(*end->partner);
     tracer_.reset();
     not_left_.reset();
+    lost_.reset();
+    was_stable_ = false;
   }
 }
 
@@ -224,9 +249,36 @@ void Explorer::look_behind(const Event& event, const Arc& arc) {
 
 // Who wants the stable way is told that none was found.
 void Explorer::stop_unstable() {
-  if (!takes_every_way() && !tracer_->end())
+  if (!takes_every_way() && !tracer_->end() && !lost_)
     tracer_->stop({.reason = EndReason::min_step,
                    .detail = "the path is unstable beyond a branch point, and switching to the other branch failed"});
+}
+
+// Where the structure is to jump, it leaves a branch that loses its stability before the next arc: what leads off a
+// branch point may be found one arc later.
+void Explorer::look_for_loss(const Arc& arc) {
+  if (options_.policy != BranchPolicy::jump || takes_every_way() || tracer_->end() || lost_) return;
+  if (const Event* const lost = loss_of_stability(arc.events))
+    lost_ = *lost;
+  else if (was_stable_ && arc.to.count.stability == Stability::unstable)
+    tracer_->stop({.reason = EndReason::unstable,
+                   .detail = "the structure became unstable before this point, at no event that says where"});
+  was_stable_ = was_stable_ || arc.to.count.stability == Stability::stable;
+}
+
+// At constant λ, which then goes on as it did.
+void Explorer::jump(const Event& lost) {
+  JumpEnd end = options_.jump(lost, tracer_->here());
+  if (!end.state) return tracer_->stop({.reason = EndReason::unstable, .detail = std::move(end.why_none)});
+  const auto next = static_cast<int>(branches_.size());
+  auto ends = stop_at_bounds(trace_, lost.state, *end.state);
+  if (!ends) ends = stop_at_contacts(trace_, lost.state.active_set, end.state->active_set);
+  queue_.push_front({.start = {.state = std::move(*end.state), .lambda_scale = lambda_scale_},
+                     .record = {.parent = current_, .depth = here().depth, .after_jump = true},
+                     .ends = std::move(ends)});
+  tracer_->stop({.reason = EndReason::jumped,
+                 .detail = "continues after a jump as branch " + std::to_string(next),
+                 .partner = next});
 }
 
 // Decides which of the ways off a branch point are traced. `point` is where they leave: that of the event, or a corner
@@ -235,7 +287,8 @@ void Explorer::leave(const Event& event, const BranchPoint& point, const std::ve
   const Metric metric(system_.weights(point.state.active_set), lambda_scale_);
   const bool mirror_ahead = point.ends_its_own_branch();
   const bool mirror_image = mirror_images(ways);
-  const int preferred = preferred_sign(options_.preference, point, ways, metric);
+  const int preferred = preferred_sense(options_.preference, point.state, point.other.dx, metric)
+                            .value_or(ways.front().sign);  // along the mode, whose largest component is positive
   if (takes_every_way()) {
     for (const TriedWay& way : ways)
       if (!mirror_image || way.sign == preferred) enqueue(event, start_along(event, way), way.sign, mirror_image);
@@ -250,6 +303,7 @@ void Explorer::leave(const Event& event, const BranchPoint& point, const std::ve
   };
   const TriedWay& best = *std::min_element(ways.begin(), ways.end(),
                                            [&](const TriedWay& a, const TriedWay& b) { return rank(a) < rank(b); });
+  if (options_.policy == BranchPolicy::jump && event.unstable_before == Index{0} && !is_followed(point, best)) return;
   enqueue(event, start_along(event, best), best.sign, mirror_image);
   const auto next = static_cast<int>(branches_.size());
   tracer_->stop(

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "continuation/metric.hpp"
 #include "continuation/tracer.hpp"
 #include "core/system.hpp"
 
@@ -15,6 +18,13 @@ enum class BranchPolicy {
   primary,      ///< stay on the first branch
   most_stable,  ///< if the branch becomes unstable, switch to the one with fewest unstable directions
   all,          ///< trace every branch found, up to a depth
+  jump,         ///< follow stable branches while λ continues; from a loss of stability, jump (ExploreOptions::jump)
+};
+
+/// Stores the outcome of a jump at constant λ.
+struct JumpEnd {
+  std::optional<State> state{};  ///< stable equilibrium; empty: none was found
+  std::string why_none{};        ///< cause of an empty state
 };
 
 /// Options of an explorer.
@@ -24,6 +34,8 @@ struct ExploreOptions {
   std::vector<std::shared_ptr<const Observable>> preference{};  ///< of two mirror images, take that on which the first
                                                                 ///< of these that changes increases
   double distance = 0.02;  ///< length of the first step from a branch point [path metric]
+  std::function<JumpEnd(const Event& lost, const PathPoint& behind)> jump{};  ///< for `jump`: the jump from the event
+                                                                              ///< `lost`; `behind`: the path behind it
 };
 
 /// Describes a branch.
@@ -35,8 +47,14 @@ struct BranchRecord {
   int sign = 1;                                 ///< side of its branch point's mode: 1 or −1
   bool mirror_image = false;                    ///< the branch on the other side is its mirror image and is not traced
   bool found = false;                           ///< a disconnected branch, started by Explorer::begin_at()
+  bool after_jump = false;                      ///< it starts where a jump from its parent ended
   std::optional<BranchEnd> end{};               ///< empty before the end
 };
+
+/// Returns the sense of a direction from a state in which the first of these quantities that changes increases: 1 or
+/// −1. Empty: none changes.
+std::optional<int> preferred_sense(const std::vector<std::shared_ptr<const Observable>>& preference, const State& state,
+                                   const Vector& direction, const Metric& metric);
 
 struct TriedWay;
 
@@ -73,8 +91,10 @@ class Explorer {
   template <typename Archive>
   void serialize(Archive& archive) {
     bool under_way = tracer_ != nullptr;
-    archive(lambda_scale_, current_, queue_, branches_, known_, not_left_, stopped_, under_way);
+    archive(lambda_scale_, current_, queue_, branches_, known_, not_left_, lost_, was_stable_, stopped_, under_way);
     archive.require(!not_left_ || not_left_->branching != nullptr);
+    archive.require(!lost_ || under_way);
+    archive.require(!lost_ || lost_->kind != EventKind::branch_point || lost_->branching != nullptr);
     const auto goes_on = [&](std::size_t branch) {
       return under_way && !stopped_ && static_cast<int>(branch) == current_;
     };
@@ -90,10 +110,11 @@ class Explorer {
   struct Queued {
     BranchStart start;
     BranchRecord record;
+    std::optional<BranchEnd> ends{};  // at its first point
 
     template <typename Archive>
     void serialize(Archive& archive) {
-      archive(start, record);
+      archive(start, record, ends);
     }
   };
 
@@ -104,6 +125,8 @@ class Explorer {
   void look_behind(const Event& event, const Arc& arc);
   void leave(const Event& event, const BranchPoint& point, const std::vector<TriedWay>& ways);
   void stop_unstable();
+  void look_for_loss(const Arc& arc);
+  void jump(const Event& lost);
   void enqueue(const Event& event, BranchStart start, int sign, bool mirror_image);
   void drop_arrived_at(int other);
 
@@ -118,6 +141,8 @@ class Explorer {
   std::vector<BranchRecord> branches_;
   std::vector<KnownPoint> known_;
   std::optional<Event> not_left_{};  // the branch point just passed, off which no step has succeeded
+  std::optional<Event> lost_{};      // at which the branch under way loses its stability, for `jump`
+  bool was_stable_ = false;          // the branch under way, at one of its points
   bool stopped_ = false;
 };
 

@@ -107,6 +107,7 @@ enum class EndReason {
   closed_loop,      ///< the branch returned to one of its points
   reached_branch,   ///< the branch reached a branch point of another branch
   switched_branch,  ///< the path continues on a bifurcated branch
+  jumped,           ///< the structure jumped at constant λ, and another branch begins where it came to rest
   max_points,
   max_time,
   interrupted,
@@ -119,6 +120,7 @@ enum class EndReason {
   equilibrium_family,  ///< a family of equilibria with one load and energy follows
   not_modelled,        ///< a contact configuration follows that is not modelled
   rigid_body_motion,   ///< an unconstrained body moved away
+  unstable,            ///< the structure lost its stability, and no state after a jump is known
 };
 
 /// Stores the end of a branch.

@@ -14,6 +14,16 @@ std::optional<BranchEnd> stop_at_contacts(const TraceOptions& options, const Act
   return BranchEnd{.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
 }
 
+std::optional<BranchEnd> stop_at_bounds(const TraceOptions& options, const State& from, const State& to) {
+  const auto& values = options.target_values;
+  const auto found = std::find_if(values.begin(), values.end(), [&](const TargetValue& bound) {
+    const double before = bound.quantity->value(from) - bound.value, after = bound.quantity->value(to) - bound.value;
+    return bound.stops && before != 0.0 && before * after <= 0.0;
+  });
+  if (found == values.end()) return std::nullopt;
+  return BranchEnd{.reason = EndReason::stop, .detail = found->label};
+}
+
 std::optional<BranchEnd> stop_at_events(const TraceOptions& options, const std::vector<Event>& events) {
   std::optional<BranchEnd> met;
   for (const StopEvent& stop : options.stop_events)

@@ -12,6 +12,9 @@ namespace arcwall {
 std::optional<BranchEnd> stop_at_contacts(const TraceOptions& options, const ActiveSet& before,
                                           const ActiveSet& active_set);
 
+/// The end of a branch that passes a bound on the way from one state to another.
+std::optional<BranchEnd> stop_at_bounds(const TraceOptions& options, const State& from, const State& to);
+
 /// The end of a branch at a point with such events.
 std::optional<BranchEnd> stop_at_events(const TraceOptions& options, const std::vector<Event>& events);
 

@@ -136,7 +136,7 @@ class Maker {
     if (branch.points < 2) return;
     const auto first = segment_with(first_points_[static_cast<std::size_t>(branch.id)], false);
     if (!first) return;
-    if (branch.origin) {
+    if (branch.origin && !branch.after_jump) {
       const RecordEvent& origin = record_.events[static_cast<std::size_t>(*branch.origin)];
       if (const auto from = segment_with(point_of(origin), false))
         map_.edges.push_back({.kind = std::string(to_text(origin.kind)),
@@ -159,7 +159,10 @@ class Maker {
     const auto from = segment_with(point_of(event), false);
     if (!from) return;
     BranchMapEdge edge{.kind = "jump", .lambda = event.lambda, .events = {event.id}, .from = *from};
-    if (jump.on_branch) edge.to = segment_with(jump.point + 1, false);
+    if (jump.on_branch) {
+      const bool begins_there = record_.points[jump.point].arc == jump.arc;
+      edge.to = segment_with(begins_there ? jump.point : jump.point + 1, false);
+    }
     map_.edges.push_back(std::move(edge));
   }
 

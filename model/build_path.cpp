@@ -75,7 +75,7 @@ TraceOptions trace_options(const deck::Deck& deck, const Measured& from, const s
   options.step.min = path.min_step;
   options.step.max = path.max_step;
   options.max_points = path.max_points;
-  options.stay = path.branches != BranchPolicy::most_stable;
+  options.stay = path.branches != BranchPolicy::most_stable && path.branches != BranchPolicy::jump;
   if (path.control) {
     options.control = shown_at(from, path.control->at, path.control->component);
     if (!options.control)

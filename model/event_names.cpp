@@ -23,11 +23,24 @@ constexpr std::array event_kinds{EventKind::start,
                                  EventKind::branch_point,
                                  EventKind::user};
 
-constexpr std::array end_reasons{
-    EndReason::stop,       EndReason::closed_loop,        EndReason::reached_branch,  EndReason::switched_branch,
-    EndReason::max_points, EndReason::max_time,           EndReason::interrupted,     EndReason::min_step,
-    EndReason::singular,   EndReason::not_finite,         EndReason::no_continuation, EndReason::control_turns,
-    EndReason::wall_end,   EndReason::equilibrium_family, EndReason::not_modelled,    EndReason::rigid_body_motion};
+constexpr std::array end_reasons{EndReason::stop,
+                                 EndReason::closed_loop,
+                                 EndReason::reached_branch,
+                                 EndReason::switched_branch,
+                                 EndReason::jumped,
+                                 EndReason::max_points,
+                                 EndReason::max_time,
+                                 EndReason::interrupted,
+                                 EndReason::min_step,
+                                 EndReason::singular,
+                                 EndReason::not_finite,
+                                 EndReason::no_continuation,
+                                 EndReason::control_turns,
+                                 EndReason::wall_end,
+                                 EndReason::equilibrium_family,
+                                 EndReason::not_modelled,
+                                 EndReason::rigid_body_motion,
+                                 EndReason::unstable};
 
 template <class List>
 std::optional<typename List::value_type> with_text(const List& list, std::string_view text) {
@@ -86,6 +99,8 @@ std::string_view to_text(EndReason reason) {
       return "reached_branch";
     case EndReason::switched_branch:
       return "switched_branch";
+    case EndReason::jumped:
+      return "jumped";
     case EndReason::max_points:
       return "max_points";
     case EndReason::max_time:
@@ -110,6 +125,8 @@ std::string_view to_text(EndReason reason) {
       return "not_modelled";
     case EndReason::rigid_body_motion:
       return "rigid_body_motion";
+    case EndReason::unstable:
+      return "unstable";
   }
   assert(false);
   return {};
@@ -183,6 +200,8 @@ std::string_view explanation(EndReason reason) {
       return "a branch point of another branch was reached";
     case EndReason::switched_branch:
       return "the path continues along another branch";
+    case EndReason::jumped:
+      return "the run continues after a jump on another branch";
     case EndReason::max_points:
       return "the limit on points was met";
     case EndReason::max_time:
@@ -207,6 +226,8 @@ std::string_view explanation(EndReason reason) {
       return "the path reaches a contact configuration that is not modelled";
     case EndReason::rigid_body_motion:
       return "an unconstrained body was moved by more than 20 times the structure's size";
+    case EndReason::unstable:
+      return "the structure lost its stability, and no state after a jump is known";
   }
   assert(false);
   return {};
@@ -218,6 +239,7 @@ std::string_view what_to_try(EndReason reason) {
     case EndReason::closed_loop:
     case EndReason::reached_branch:
     case EndReason::switched_branch:
+    case EndReason::jumped:
     case EndReason::max_points:
     case EndReason::max_time:
     case EndReason::interrupted:
@@ -244,6 +266,9 @@ std::string_view what_to_try(EndReason reason) {
              "\"penalty\", and check that the loads converge with the number of elements";
     case EndReason::rigid_body_motion:
       return "a support or a wall that restrains it, or [[prescribed]] instead of the load";
+    case EndReason::unstable:
+      return "path.branches = \"most-stable\", which follows the path through its unstable part; a small imperfection, "
+             "or a wall that stops the motion";
   }
   assert(false);
   return {};

@@ -5,11 +5,17 @@
 #include <utility>
 
 #include "model/event_names.hpp"
+#include "model/jumps.hpp"
 
 namespace arcwall {
 
 void EventHunt::explore() {
-  explorer_ = std::make_unique<Explorer>(model_.system(), start_, model_.options(), model_.watched(), model_.explore());
+  ExploreOptions options = model_.explore();
+  options.jump = [&model = model_](const Event& lost, const PathPoint& behind) -> JumpEnd {
+    Fall fall = fall_beyond(model, lost, behind);
+    return {.state = std::move(fall.state), .why_none = fall.jump->why};
+  };
+  explorer_ = std::make_unique<Explorer>(model_.system(), start_, model_.options(), model_.watched(), options);
 }
 
 bool EventHunt::advance() {

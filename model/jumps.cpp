@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -74,19 +75,20 @@ std::shared_ptr<RecordJump> not_found(double lambda, const char* why) {
   return std::make_shared<RecordJump>(RecordJump{.reason = "not_found", .why = why, .lambda = lambda});
 }
 
+// The outcome of a fall.
+struct Fallen {
+  std::shared_ptr<RecordJump> jump{};  // null: it stays beside the event
+  State rest{};                        // where it ends, if `jump` has no reason against it
+};
+
 class Falls {
  public:
-  Falls(const Model& model, const Record& record) : model_(model), record_(record), mesh_(model) {
-    constexpr Index besides = 2;  // of a step: at its end, and where events are located
-    constexpr Index cheaper = 2;  // factorizations of a fall for one of tracing, which does more with it
-    const auto& members = model.deck().members;
-    const bool essenburg = std::any_of(members.begin(), members.end(),
-                                       [](const deck::Member& one) { return one.theory == Theory::essenburg; });
-    left_ = static_cast<Index>((essenburg ? more_work_for_essenburg : more_work) /
-                               static_cast<double>(std::max(mesh_.size(), Index{1})));
-    for (const RecordPoint& point : record.points)
-      if (record.stage_number(point.branch) == model.stage()) left_ += cheaper * (point.iterations + besides);
-  }
+  // `factorizations`: that falls may take; empty: as many as they need.
+  Falls(const Model& model, const Record& record, std::optional<Index> factorizations)
+      : model_(model),
+        record_(record),
+        mesh_(model),
+        left_(factorizations.value_or(std::numeric_limits<Index>::max())) {}
 
   // Where the structure falls to from an event at a point of the record; null where it stays beside a branch point.
   // From a branch point in both senses.
@@ -95,24 +97,35 @@ class Falls {
     if (is_followed(event, point)) return nullptr;
     const Loss loss = recorded(event, point, 1);
     if (!loss.behind) return not_found(event.lambda, "no direction is known in which the structure leaves the event");
-    State rest, other_rest;
-    auto jump = fall_and_back(event, point, loss, rest);
-    if (event.kind != EventKind::branch_point)
-      return jump ? jump : not_found(event.lambda, "pushed along its path, the structure returned to the event");
-    Loss opposite = loss;
-    opposite.sense = -1.0;
-    auto other = fall_and_back(event, point, opposite, other_rest);
-    if (!jump || !other) return jump ? jump : other;
-    if (other->why == took_too_long) return jump;  // of which nothing is known
-    if (jump->why == took_too_long) return other;
-    if (jump->reason == other->reason && (!jump->reason.empty() || are_alike(*jump, rest, *other, other_rest)))
-      return jump;
-    auto several = std::make_shared<RecordJump>();
-    several->reason = "two_destinations";
-    several->why = "the senses of the mode lead to different ends";
-    several->lambda = event.lambda;
-    several->destinations = {std::move(*jump), std::move(*other)};
-    return several;
+    std::vector<Fallen> ends = fall_in_each_sense(loss);
+    for (Fallen& end : ends)
+      if (end.jump && end.jump->reason.empty()) add_way_back(event, point, end.rest, *end.jump);
+    return told(loss, ends);
+  }
+
+  // Where the structure falls to from a loss of stability that a tracer has located; `behind`: its path behind it.
+  Fall beyond(const Event& event, const PathPoint& behind) {
+    if (!mesh_.is_complete())
+      return {.jump = not_found(event.state.lambda, "the deck's mesh has unknowns that its contact does not")};
+    Loss loss{.kind = event.kind, .at = event.state, .energy = model_.energy(event.state)};
+    if (event.branching && event.branching->mode.dx.size() == event.branching->state.x.size()) {
+      const BranchPoint& point = *event.branching;
+      const Metric metric(model_.system().weights(point.state.active_set), 1.0);
+      loss.behind = moved(point.state, point.mode, pushes[0]);
+      loss.sense = preferred_sense(model_.explore().preference, point.state, point.mode.dx, metric).value_or(1);
+    } else {
+      loss.behind = moved(behind.state, behind.tangent, pushes[0]);
+    }
+    std::vector<Fallen> ends = fall_in_each_sense(loss);
+    Fall fall{.jump = told(loss, ends)};
+    if (!fall.jump) fall.jump = not_found(event.state.lambda, "the structure stays beside the branch point");
+    if (ends.size() == 1 && fall.jump->reason.empty()) fall.state = std::move(ends.front().rest);
+    return fall;
+  }
+
+  // The way back of a jump from which the run went on.
+  void add_way_back(const RecordEvent& event, std::size_t point, RecordJump& jump) {
+    add_way_back(event, point, record_.points[jump.point].state, jump);
   }
 
   // The event at a point that is stable on the side one comes from and unstable behind.
@@ -143,20 +156,41 @@ class Falls {
     });
   }
 
-  std::shared_ptr<RecordJump> fall_and_back(const RecordEvent& event, std::size_t point, const Loss& loss,
-                                            State& rest) {
-    auto jump = fall(loss, rest);
-    if (!jump || !jump->reason.empty()) return jump;
-    const double ahead = point > 0 ? event.lambda - record_.points[point - 1].lambda : 0.0;
-    if (ahead != 0.0) add_way_back(event, rest, ahead, *jump);
-    return jump;
+  // From a branch point in both senses of its mode, the loss's first, unless they lead to the same.
+  std::vector<Fallen> fall_in_each_sense(const Loss& loss) {
+    Fallen first = fall(loss);
+    if (loss.kind != EventKind::branch_point) return {first};
+    Loss opposite = loss;
+    opposite.sense = -loss.sense;
+    Fallen other = fall(opposite);
+    if (!first.jump || !other.jump) return {first.jump ? first : other};
+    if (other.jump->why == took_too_long) return {first};  // of which nothing is known
+    if (first.jump->why == took_too_long) return {other};
+    if (first.jump->reason == other.jump->reason && (!first.jump->reason.empty() || are_alike(first, other)))
+      return {first};
+    return {first, other};
+  }
+
+  // Null where the structure stays beside a branch point.
+  static std::shared_ptr<const RecordJump> told(const Loss& loss, const std::vector<Fallen>& ends) {
+    if (ends.size() == 1) {
+      if (ends.front().jump || loss.kind == EventKind::branch_point) return ends.front().jump;
+      return not_found(loss.at.lambda, "pushed along its path, the structure returned to the event");
+    }
+    auto several = std::make_shared<RecordJump>();
+    several->reason = "two_destinations";
+    several->why = "the senses of the mode lead to different ends";
+    several->lambda = loss.at.lambda;
+    for (const Fallen& end : ends) several->destinations.push_back(*end.jump);
+    return several;
   }
 
   // Whether two jumps are one state, or images of each other in a mirror.
-  bool are_alike(const RecordJump& a, const State& rest_a, const RecordJump& b, const State& rest_b) const {
+  bool are_alike(const Fallen& first, const Fallen& second) const {
     constexpr double same_energy = 1e-6;  // of the energy
+    const RecordJump &a = *first.jump, &b = *second.jump;
     if (std::abs(a.energy - b.energy) > same_energy * std::max(std::abs(a.energy), std::abs(b.energy))) return false;
-    const Vector x = mesh_.unknowns(rest_a), y = mesh_.unknowns(rest_b);
+    const Vector x = mesh_.unknowns(first.rest), y = mesh_.unknowns(second.rest);
     if (mesh_.distance(x, y) <= DeckMesh::same_of_nodes) return true;
     const std::vector<Vector> images = MirrorImages(model_.structure()).of(mesh_.state(x, a.lambda));
     return std::any_of(images.begin(), images.end(),
@@ -234,9 +268,8 @@ class Falls {
     return std::nullopt;
   }
 
-  // `rest` becomes the state.
-  std::shared_ptr<RecordJump> fall(const Loss& loss, State& rest) {
-    if (!loss.behind) return nullptr;
+  Fallen fall(const Loss& loss) {
+    if (!loss.behind) return {};
     const Vector start = mesh_.unknowns(loss.at), behind = loss.sense * (mesh_.unknowns(*loss.behind) - start);
     const double far = mesh_.length(behind);
     auto jump = std::make_shared<RecordJump>();
@@ -249,12 +282,12 @@ class Falls {
       if (descent.end == DescentEnd::falls_away) {
         jump->reason = "no_equilibrium";
         jump->why = "the structure finds no equilibrium at this load";
-        return jump;
+        return {.jump = jump};
       }
       if (descent.end == DescentEnd::cut_off) {
         jump->reason = "not_found";
         jump->why = took_too_long;
-        return jump;
+        return {.jump = jump};
       }
       // Near a branch point from which a stable branch leaves it creeps back.
       if (mesh_.distance(descent.state.x.head(mesh_.size()), start) <= is_elsewhere) continue;
@@ -264,11 +297,11 @@ class Falls {
         left = true;
         continue;
       }
-      rest = descent.state;
-      settle(loss, rest, *jump);
-      return jump;
+      Fallen fallen{.jump = jump, .rest = descent.state};
+      settle(loss, fallen.rest, *jump);
+      return fallen;
     }
-    return left ? jump : nullptr;
+    return {.jump = left ? jump : nullptr};
   }
 
   // The state at rest in the path's own formulation, counted.
@@ -316,18 +349,20 @@ class Falls {
 
   // λ, which increased by `ahead` on the way to the event, goes back from the state at rest, and the structure falls
   // again where that loses its stability.
-  void add_way_back(const RecordEvent& event, const State& rest, double ahead, RecordJump& jump) {
-    const std::optional<Loss> lost = jump.on_branch ? recorded_back(jump, ahead) : traced(rest, far_back(event, ahead));
+  void add_way_back(const RecordEvent& event, std::size_t point, const State& rest, RecordJump& jump) {
+    const double ahead = point > 0 ? event.lambda - record_.points[point - 1].lambda : 0.0;
+    if (ahead == 0.0) return;
+    const bool is_passed = jump.on_branch && !record_.branches[static_cast<std::size_t>(*jump.on_branch)].after_jump;
+    const std::optional<Loss> lost = is_passed ? recorded_back(jump, ahead) : traced(rest, far_back(event, ahead));
     if (!lost) return;
     auto way = std::make_shared<RecordReturn>();
     way->lambda = lost->at.lambda;
     way->kind = lost->kind;
     for (const MonitorColumn& column : model_.monitors()) way->monitors.push_back(column.quantity->value(lost->at));
-    State back;
-    const auto again = fall(*lost, back);
-    way->jump = again;
-    if (again && again->reason.empty() && is_before(event, *again, back))
-      jump.energy_dissipated = jump.energy_released + again->energy_released;
+    const Fallen again = fall(*lost);
+    way->jump = again.jump;
+    if (again.jump && again.jump->reason.empty() && is_before(event, *again.jump, again.rest))
+      jump.energy_dissipated = jump.energy_released + again.jump->energy_released;
     jump.on_return = std::move(way);
   }
 
@@ -345,9 +380,14 @@ class Falls {
   }
 
   // λ beyond which no loss of stability is sought: from the event against `ahead` two and a half times as far as from
-  // the beginning of its branch.
+  // the beginning of its branch, or of the one from which the structure jumped to it.
   double far_back(const RecordEvent& event, double ahead) const {
-    return event.lambda - std::copysign(2.5 * std::abs(event.lambda - first_point(event.branch).lambda), ahead);
+    Index branch = event.branch;
+    const auto of_record = [&](Index id) -> const RecordBranch& {
+      return record_.branches[static_cast<std::size_t>(id)];
+    };
+    while (of_record(branch).after_jump && of_record(branch).parent) branch = *of_record(branch).parent;
+    return event.lambda - std::copysign(2.5 * std::abs(event.lambda - first_point(branch).lambda), ahead);
   }
 
   const RecordPoint& first_point(Index branch) const {
@@ -368,8 +408,22 @@ class Falls {
   const Model& model_;
   const Record& record_;
   DeckMesh mesh_;
-  Index left_ = 0;  // factorizations that falls may still take
+  Index left_;  // factorizations that falls may still take
 };
+
+// Of the falls of a run, beside its tracing.
+Index work_allowed(const Model& model, const Record& record) {
+  constexpr Index besides = 2;  // of a step: at its end, and where events are located
+  constexpr Index cheaper = 2;  // factorizations of a fall for one of tracing, which does more with it
+  const auto& members = model.deck().members;
+  const bool essenburg = std::any_of(members.begin(), members.end(),
+                                     [](const deck::Member& one) { return one.theory == Theory::essenburg; });
+  auto work = static_cast<Index>((essenburg ? more_work_for_essenburg : more_work) /
+                                 static_cast<double>(std::max(DeckMesh(model).size(), Index{1})));
+  for (const RecordPoint& point : record.points)
+    if (record.stage_number(point.branch) == model.stage()) work += cheaper * (point.iterations + besides);
+  return work;
+}
 
 // The number of the event's point in the record.
 std::optional<std::size_t> point_of(const Record& record, const RecordEvent& event) {
@@ -380,6 +434,11 @@ std::optional<std::size_t> point_of(const Record& record, const RecordEvent& eve
 
 }  // namespace
 
+Fall fall_beyond(const Model& model, const Event& lost, const PathPoint& behind) {
+  const Record nothing_traced;
+  return Falls(model, nothing_traced, std::nullopt).beyond(lost, behind);
+}
+
 void add_jumps(const Model& model, Record& record) {
   if (!model.whole_deck().path.jumps || model.in_increments()) return;
   std::optional<Falls> of;
@@ -388,7 +447,13 @@ void add_jumps(const Model& model, Record& record) {
     const auto point = loses_stability(event) ? point_of(record, event) : std::nullopt;
     if (!point) continue;
     if (const Index now = record.stage_number(event.branch); std::exchange(stage, now) != now)
-      of.emplace(model.at_stage(now), record);
+      of.emplace(model.at_stage(now), record, work_allowed(model.at_stage(now), record));
+    if (event.jump) {
+      RecordJump jump = *event.jump;
+      if (jump.on_branch) of->add_way_back(event, *point, jump);
+      event.jump = std::make_shared<const RecordJump>(std::move(jump));
+      continue;
+    }
     if (!changes_contact(event.kind) || of->loss_at(*point, 1) == &event) event.jump = of->from(event, *point);
   }
 }

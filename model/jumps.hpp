@@ -1,9 +1,24 @@
 #pragma once
 
+#include <memory>
+#include <optional>
+
+#include "continuation/path_point.hpp"
 #include "model/model.hpp"
 #include "model/record.hpp"
 
 namespace arcwall {
+
+/// Stores a jump at constant λ.
+struct Fall {
+  std::shared_ptr<const RecordJump> jump{};  ///< as an event has it, without a traced branch and a return
+  std::optional<State> state{};              ///< stable equilibrium where it ends; empty: none, or two are possible
+};
+
+/// Returns the jump from an event at which a stable structure loses its stability; `behind`: its path behind the event.
+/// Of two mirror images the
+/// one on which the first monitor that changes increases.
+Fall fall_beyond(const Model& model, const Event& lost, const PathPoint& behind);
 
 /// Adds to each event of a record at which a stable structure loses its stability where that falls to at the same λ
 /// (docs/theory.md, section 15): by descent among the obstacles on the deck's mesh, and from there to an equilibrium of

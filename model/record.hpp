@@ -166,10 +166,11 @@ struct RecordSearch {
 struct RecordBranch {
   Index id = 0;
   Index stage = 0;                ///< counts from 0
-  std::optional<Index> parent{};  ///< branch from which it bifurcates; empty: none
-  std::optional<Index> origin{};  ///< event of the bifurcation; empty: none
+  std::optional<Index> parent{};  ///< branch that it leaves; empty: none
+  std::optional<Index> origin{};  ///< event at which it leaves: a bifurcation, or the start of a jump; empty: none
   bool mirror_image = false;      ///< its mirror image also bifurcates there and is not traced
   bool found = false;             ///< a disconnected branch
+  bool after_jump = false;        ///< it starts where a jump from its parent ended
   Index points = 0;
   double least_lambda = infinity, greatest_lambda = -infinity;  ///< of its points
   std::optional<BranchEnd> end{};                               ///< empty before the end

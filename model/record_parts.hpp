@@ -80,8 +80,8 @@ void parts(Archive& archive, RecordBranchPoint& point) {
 
 template <typename Archive>
 void parts(Archive& archive, RecordBranch& branch) {
-  archive(branch.id, branch.stage, branch.parent, branch.origin, branch.mirror_image, branch.found, branch.points,
-          branch.least_lambda, branch.greatest_lambda, branch.end);
+  archive(branch.id, branch.stage, branch.parent, branch.origin, branch.mirror_image, branch.found, branch.after_jump,
+          branch.points, branch.least_lambda, branch.greatest_lambda, branch.end);
 }
 
 constexpr std::int64_t greatest(FoundFate) { return static_cast<std::int64_t>(FoundFate::not_traced); }

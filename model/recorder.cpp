@@ -79,7 +79,8 @@ void Recorder::begin(const BranchRecord& branch) {
   RecordBranch added{.id = static_cast<Index>(branch_),
                      .stage = model_ == nullptr ? 0 : model_->stage(),
                      .mirror_image = branch.mirror_image,
-                     .found = branch.found};
+                     .found = branch.found,
+                     .after_jump = branch.after_jump};
   if (branch.parent) added.parent = *branch.parent;
   const auto same = [&](const RecordBranchPoint& known) { return known.point == branch.origin; };
   const auto origin = std::find_if(record_.branch_points.begin(), record_.branch_points.end(), same);

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "continuation/stops.hpp"
 #include "core/text.hpp"
 #include "model/build_path.hpp"
+#include "model/jumps.hpp"
 #include "model/record_parts.hpp"
 #include "model/recorder.hpp"
 #include "model/search.hpp"
@@ -27,7 +29,7 @@ class PathTracing final : public Tracing {
         record_(record),
         sensitivities_(model, std::move(ended_stages)),
         first_(static_cast<int>(record.branches.size())),
-        explorer_(model.system(), start, options(ledger), model.watched(), model.explore()),
+        explorer_(model.system(), start, options(ledger), model.watched(), explore()),
         search_(model, record) {}
 
   bool advance() override {
@@ -43,6 +45,7 @@ class PathTracing final : public Tracing {
       BranchRecord begun = branch();
       if (begun.parent) *begun.parent += first_;
       recorder_.emplace(model_, record_, begun);
+      if (begun.after_jump) leads_here(*begun.parent);
     }
     recorder_->add(step->arc);
     const std::size_t first_event = record_.events.size() - step->arc.events.size();
@@ -84,6 +87,32 @@ class PathTracing final : public Tracing {
         record_.steps += ledger_line(model_, first_ + static_cast<Index>(explorer_.branches().size()) - 1, attempt);
       };
     return options;
+  }
+
+  // Jumps are told as events of the record, which has the arc that ends at the event.
+  ExploreOptions explore() {
+    ExploreOptions options = model_.explore();
+    options.jump = [this](const Event& lost, const PathPoint& behind) -> JumpEnd {
+      Fall fall = fall_beyond(model_, lost, behind);
+      for (RecordEvent& event : record_.events)
+        if (event.branch == record_.branches.back().id && event.kind == lost.kind && event.arc == lost.arc)
+          event.jump = fall.jump;
+      return {.state = std::move(fall.state), .why_none = "no state after a jump is known: " + fall.jump->why};
+    };
+    return options;
+  }
+
+  // The branch that has begun is where a jump from this one ended.
+  void leads_here(Index parent) {
+    RecordBranch& here = record_.branches.back();
+    for (RecordEvent& event : record_.events) {
+      if (event.branch != parent || !event.jump) continue;
+      RecordJump jump = *event.jump;
+      jump.on_branch = here.id;
+      jump.point = record_.points.size();
+      event.jump = std::make_shared<const RecordJump>(std::move(jump));
+      here.origin = event.id;
+    }
   }
 
   const BranchRecord& branch() const { return explorer_.branches()[static_cast<std::size_t>(branch_)]; }
@@ -188,17 +217,6 @@ class StageTracing final : public Tracing {
   std::unique_ptr<PathTracing> tracing_;
 };
 
-// Whether the way between two states crosses a bound that stops.
-const TargetValue* crossed(const std::vector<TargetValue>& target_values, const State& from, const State& to) {
-  const auto stops = [&](const TargetValue& target_value) {
-    const double before = target_value.quantity->value(from) - target_value.value;
-    const double after = target_value.quantity->value(to) - target_value.value;
-    return target_value.stops && before != 0.0 && before * after <= 0.0;
-  };
-  const auto found = std::find_if(target_values.begin(), target_values.end(), stops);
-  return found == target_values.end() ? nullptr : &*found;
-}
-
 // The deck's load increments: one branch.
 class IncrementTracing final : public Tracing {
  public:
@@ -259,8 +277,7 @@ class IncrementTracing final : public Tracing {
   std::optional<BranchEnd> bound_met(const State& before, const Arc& arc) const {
     const TraceOptions& options = model_.options();
     const State& after = arc.to.state;
-    if (const TargetValue* bound = crossed(options.target_values, before, after))
-      return BranchEnd{.reason = EndReason::stop, .detail = bound->label};
+    if (auto met = stop_at_bounds(options, before, after)) return met;
     for (const StopEvent& stop : options.stop_events)
       if (std::any_of(arc.events.begin(), arc.events.end(), [&](const Event& e) { return e.kind == stop.kind; }))
         return BranchEnd{.reason = EndReason::stop, .detail = stop.label};

@@ -55,6 +55,7 @@ OrderedJson branch(const Record& record, const RecordBranch& branch) {
   if (!record.stages.empty()) json["stage"] = record.stage_of(branch.id);
   json["parent"] = count(branch.parent);
   json["origin"] = branch.found ? OrderedJson("search") : count(branch.origin);
+  json["after_jump"] = branch.after_jump;
   json["mirror_image"] = branch.mirror_image;
   json["points"] = branch.points;
   json["lambda"] = OrderedJson::array({number(branch.least_lambda), number(branch.greatest_lambda)});

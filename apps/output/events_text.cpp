@@ -76,7 +76,7 @@ std::string tree(const Record& record, std::optional<Index> parent, int depth) {
     if (branch.parent != parent) continue;
     text += std::string(static_cast<std::size_t>(2 * depth), ' ');
     if (branch.origin)
-      text += fmt::format("at λ = {} (event {}): ",
+      text += fmt::format("{} λ = {} (event {}): ", branch.after_jump ? "after a jump at" : "at",
                           shown_lambda(record.events[static_cast<std::size_t>(*branch.origin)], 10), *branch.origin);
     if (branch.found) text += found_at(record, branch) + ": ";
     text += ending(branch);

@@ -13,6 +13,7 @@ ExitStatus exit_status(EndReason reason) {
     case EndReason::closed_loop:
     case EndReason::reached_branch:
     case EndReason::switched_branch:
+    case EndReason::jumped:
       return ExitStatus::success;
     case EndReason::max_points:
     case EndReason::max_time:
@@ -28,6 +29,7 @@ ExitStatus exit_status(EndReason reason) {
     case EndReason::equilibrium_family:
     case EndReason::not_modelled:
     case EndReason::rigid_body_motion:
+    case EndReason::unstable:
       return ExitStatus::ended_early;
   }
   assert(false);

@@ -378,7 +378,8 @@ std::string branch_tree(const Record& record, std::optional<Index> parent) {
                          first[static_cast<std::size_t>(branch.id)], branch.id);
     if (branch.origin) {
       const RecordEvent& origin = record.events[static_cast<std::size_t>(*branch.origin)];
-      items += fmt::format(" leaves at <span data-point=\"{}\">event {}</span>, λ = {};", point_of(origin, first),
+      items += fmt::format(" {} <span data-point=\"{}\">event {}</span>, λ = {};",
+                           branch.after_jump ? "begins after a jump at" : "leaves at", point_of(origin, first),
                            origin.id, shown_lambda(origin, 10));
     }
     if (branch.found) items += " begins " + escaped(found_at(record, branch)) + ";";

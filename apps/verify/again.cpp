@@ -40,7 +40,8 @@ bool is_limit(EndReason reason) {
 bool has_a_place(const RecordEvent& event) {
   if (!event.branch_end) return true;
   const EndReason reason = event.branch_end->reason;
-  return reason == EndReason::stop || reason == EndReason::switched_branch || reason == EndReason::reached_branch;
+  return reason == EndReason::stop || reason == EndReason::switched_branch || reason == EndReason::jumped ||
+         reason == EndReason::reached_branch;
 }
 
 struct EventsOfBranch {

@@ -95,6 +95,28 @@ void check_switch(const Branch& branch, const Record& record, Findings& findings
                    "the branch continues as another without a branch-point");
 }
 
+// A branch that ends in a jump ends where it loses its stability, and another begins at the same λ with less energy.
+void check_jump(const Branch& branch, const Record& record, Findings& findings) {
+  const auto& end = record.branches[static_cast<std::size_t>(branch.id)].end;
+  if (!end || end->reason != EndReason::jumped) return;
+  const auto lost = std::find_if(branch.events.begin(), branch.events.end(), [](const ListedEvent& event) {
+    return event.unstable_before == Index{0} && event.unstable_after.value_or(0) > 0;
+  });
+  const auto next = std::find_if(record.points.begin(), record.points.end(), [&](const RecordPoint& point) {
+    return end->partner && point.branch == *end->partner && point.step == 0;
+  });
+  findings.at("events.json", branch.id, branch.points.back().step);
+  findings.require(complete, lost != branch.events.end(),
+                   "the structure jumps without an event at which it loses its stability");
+  findings.require(complete, next != record.points.end(), "the structure jumps, and no branch begins after the jump");
+  if (lost == branch.events.end() || next == record.points.end()) return;
+  const RecordPoint& from = branch.points[static_cast<std::size_t>(lost->step - branch.points.front().step)];
+  findings.at("events.json", next->branch, next->step);
+  findings.require(complete, next->lambda == from.lambda, "a jump changes λ");
+  findings.require(complete, next->energy < from.energy, "a jump increases the energy");
+  findings.require(complete, next->count.unstable == Index{0}, "a jump ends at an unstable equilibrium");
+}
+
 // --- contacts -------------------------------------------------------------------------------------------------------
 
 bool is_contact_event(const ListedEvent& event) {
@@ -326,6 +348,7 @@ void check_completeness(const std::vector<ListedEvent>& events, const Record& re
     const Model& here = model.at_stage(record.stage_number(branch.id));
     if (model.deck().path.events != EventSearch::none) check_counts(branch, findings);
     check_switch(branch, record, findings);
+    check_jump(branch, record, findings);
     check_contact_changes(branch, model.sliding() != nullptr, findings);
     check_turning_points(branch, record, here, findings);
     if (!here.in_increments()) check_passed_values(branch, record, here, findings);

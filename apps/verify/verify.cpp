@@ -87,7 +87,8 @@ ZeroEigenvalue zero_eigenvalue(const Model& model, const Record& record, const R
   const auto is_here = [&](double arc, Index step) {
     return slides ? std::abs(arc - point.arc) <= near : step == point.step;
   };
-  if (record.branches.at(static_cast<std::size_t>(point.branch)).origin && is_here(0.0, 0)) return singular_zero;
+  const RecordBranch& branch = record.branches.at(static_cast<std::size_t>(point.branch));
+  if (branch.origin && !branch.after_jump && is_here(0.0, 0)) return singular_zero;
   const auto singular = [&](const RecordEvent& event) {
     if (event.branch != point.branch || !is_here(event.arc, event.step)) return false;
     if (event.step == point.step && point.count.stability == Stability::undecided) return true;

@@ -143,7 +143,7 @@ void parts(Archive& archive, BranchStart& start) {
 template <typename Archive>
 void parts(Archive& archive, BranchRecord& record) {
   archive(record.id, record.parent, record.origin, record.depth, record.sign, record.mirror_image, record.found,
-          record.end);
+          record.after_jump, record.end);
 }
 
 }  // namespace arcwall

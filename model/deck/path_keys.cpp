@@ -57,6 +57,18 @@ void stop_keys(Keys& keys, Stop& stop) {
 }
 
 // Events that are not looked for end nothing.
+// A jump begins at an event that is located.
+void check_jump(Keys& keys, BranchPolicy branches, const Path& path) {
+  if (branches != BranchPolicy::jump) return;
+  if (path.method == PathMethod::incremental)
+    keys.report("branches", "\"jump\" needs equilibria, which method \"incremental\" leaves",
+                "use method \"spherical\"");
+  else if (path.events != EventSearch::locate)
+    keys.report("branches",
+                "\"jump\" needs located events, and events is " + in_quotes(text_of(events_words, path.events)),
+                "leave out events, or write events = \"locate\"");
+}
+
 void check_stop_events(Keys& keys, const Path& path) {
   for (const EventKind event : path.stop.events) {
     const std::string name = text_of(stop_event_words, event);
@@ -185,7 +197,7 @@ void path_keys(Keys& keys, Path& path) {
   step_keys(keys, path);
   keys.word(
       optional("branches"), path.branches, branches_words,
-      "branch switching at bifurcations: `\"primary\"`, `\"most-stable\"` or `\"all\"`; disconnected branches need "
+      "branch switching: `\"primary\"`, `\"most-stable\"`, `\"all\"` or `\"jump\"` (below); disconnected branches need "
       "`search`");
   keys.integer(optional("depth"), path.depth, {}, "of `\"all\"`: generations of branches");
   watch_key(keys, path);
@@ -208,6 +220,7 @@ void path_keys(Keys& keys, Path& path) {
       optional("stop"), Form::header, [&](Keys& stop) { stop_keys(stop, path.stop); }, "");
   if (keys.reads()) check_search(keys, path);
   check_method(keys, path, names_lambda);
+  check_jump(keys, path.branches, path);
   check_stop_events(keys, path);
 }
 
@@ -228,6 +241,7 @@ void stage_keys(Keys& keys, Stage& stage, const Deck& deck) {
   keys.number(optional("step", "as in [path]"), stage.step, unit::none, not_zero, "as in [path]");
   keys.number(optional("max_step", "as in [path]"), stage.max_step, unit::none, positive, "as in [path]");
   keys.word(optional("branches", "as in [path]"), stage.branches, branches_words, "as in [path]");
+  if (stage.branches) check_jump(keys, *stage.branches, deck.path);
   output_at_key(keys, optional("output_at", "as in [path]"), stage.output_at, "as in [path]");
   keys.part("stop", stage.stop, [&](Stop& stop) {
     keys.table(

@@ -106,8 +106,10 @@ inline constexpr Words<PathMethod, 8> path_method_words{{{"load", PathMethod::lo
                                                          {"spherical", PathMethod::spherical},
                                                          {"pseudo-arclength", PathMethod::pseudo_arclength},
                                                          {"incremental", PathMethod::incremental}}};
-inline constexpr Words<BranchPolicy, 3> branches_words{
-    {{"primary", BranchPolicy::primary}, {"most-stable", BranchPolicy::most_stable}, {"all", BranchPolicy::all}}};
+inline constexpr Words<BranchPolicy, 4> branches_words{{{"primary", BranchPolicy::primary},
+                                                        {"most-stable", BranchPolicy::most_stable},
+                                                        {"all", BranchPolicy::all},
+                                                        {"jump", BranchPolicy::jump}}};
 inline constexpr Words<EventSearch, 3> events_words{
     {{"locate", EventSearch::locate}, {"detect", EventSearch::detect}, {"none", EventSearch::none}}};
 

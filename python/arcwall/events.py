@@ -243,13 +243,14 @@ class Branch(Value):
 
     id: int  #: number of the branch, from 0
     parent: int | None  #: id of the branch that it leaves; None for the first and for disconnected branches
-    origin: int | None  #: id of the event at which it leaves; None as for ``parent``
+    origin: int | None  #: id of the event at which it leaves, or from which it jumps; None as for ``parent``
     mirror_image: bool  #: True if its mirror image leaves the same event and is not traced
     points: int  #: number of its points
     lam: tuple[float, float]  #: minimum and maximum λ of its points
     end: End | None  #: its end; None if it can be continued
     stage: str | None = None  #: name of the load step; None if the deck has none
     disconnected: bool = False  #: True if it starts at an equilibrium that a search found
+    after_jump: bool = False  #: True if it starts after a jump from its parent
 
 
 @dataclass(frozen=True, repr=False)
@@ -502,6 +503,7 @@ def branch_of(json: Mapping[str, Any]) -> Branch:
         end=end_of(json["end"]),
         stage=json.get("stage"),
         disconnected=json["origin"] == "search",
+        after_jump=json["after_jump"],
     )
 
 

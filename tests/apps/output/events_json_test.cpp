@@ -38,7 +38,7 @@ TEST(EventsJson, NamesDeckVersionAndBranches) {
   EXPECT_EQ(json["version"], program_version());
   EXPECT_EQ(
       json["branches"].dump(),
-      R"([{"id":0,"parent":null,"origin":null,"mirror_image":false,"points":3,"lambda":[0.0,0.1],"end":{"reason":"stop","detail":"mid = 0.2"}}])");
+      R"([{"id":0,"parent":null,"origin":null,"after_jump":false,"mirror_image":false,"points":3,"lambda":[0.0,0.1],"end":{"reason":"stop","detail":"mid = 0.2"}}])");
 }
 
 TEST(EventsJson, AnEventHasTheKeysOfItsKind) {
