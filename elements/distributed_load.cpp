@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "elements/chord_frame.hpp"
+#include "elements/cubic_axis.hpp"
+#include "elements/shape_functions.hpp"
 
 namespace arcwall {
 
@@ -24,64 +25,73 @@ void DrivenLoad::complete_end_forces(const double* u, double lambda, double* f) 
   for (int i = 0; i < unknown_count(); ++i) f[i] += factor_.at(lambda) * unit[i];
 }
 
-double BeamDistributedLoad::evaluate(const double* u, double* f, double* K) const {
-  const double h = reference_.length;
-  const Vec2 chord = reference_.chord + Vec2(u[3] - u[0], u[4] - u[1]);
-  const double bend = within_half_a_turn(reference_.slope1 - reference_.slope2 + u[2] - u[5]) / 12.0;
-  const double bend_0 = (reference_.slope1 - reference_.slope2) / 12.0;
-  // q·Δr⊥ = q_z Δx − q_x Δz
-  const double across = load_.y() * chord.x() - load_.x() * chord.y();
-  const double across_0 = load_.y() * reference_.chord.x() - load_.x() * reference_.chord.y();
-  const double mean = 0.5 * (load_.x() * (u[0] + u[3]) + load_.y() * (u[1] + u[4]));
-  if (f != nullptr) {
-    f[0] = -h * (0.5 * load_.x() - load_.y() * bend);
-    f[1] = -h * (0.5 * load_.y() + load_.x() * bend);
-    f[2] = -h * across / 12.0;
-    f[3] = -h * (0.5 * load_.x() + load_.y() * bend);
-    f[4] = -h * (0.5 * load_.y() - load_.x() * bend);
-    f[5] = h * across / 12.0;
-  }
-  if (K != nullptr) {
-    std::fill(K, K + 36, 0.0);
-    const double x = h * load_.y() / 12.0, z = h * load_.x() / 12.0;  // ∂²V between rotations and translations
-    K[2 + 6 * 0] = x;
-    K[2 + 6 * 1] = -z;
-    K[3 + 6 * 2] = -x;
-    K[4 + 6 * 2] = z;
-    K[5 + 6 * 0] = -x;
-    K[5 + 6 * 1] = z;
-    K[5 + 6 * 3] = x;
-    K[5 + 6 * 4] = -z;
-  }
-  return -h * (mean + across * bend - across_0 * bend_0);
+namespace {
+
+// Of the cubic through four equally spaced values on [0, 1].
+double interpolated_angle(const std::array<double, StretchReference::samples>& values, double xi) {
+  const double x = 3.0 * xi;
+  return -(x - 1.0) * (x - 2.0) * (x - 3.0) / 6.0 * values[0] + x * (x - 2.0) * (x - 3.0) / 2.0 * values[1] -
+         x * (x - 1.0) * (x - 3.0) / 2.0 * values[2] + x * (x - 1.0) * (x - 2.0) / 6.0 * values[3];
 }
 
-// With q⊥ = (q_z, −q_x): q·Δr⊥ = q⊥·Δr.
+}  // namespace
+
+// Only the energy knows where the stretch is at rest.
 StretchLoad::Response StretchLoad::respond(const Vec2& r1, double angle1, const Vec2& r2, double angle2) const {
-  const double h = length_, bend = within_half_a_turn(angle1 - angle2) / 12.0;
-  const Vec2 turned(load_.y(), -load_.x());
-  const double across = turned.dot(r2 - r1);
-  Response out{.energy = -h * (0.5 * load_.dot(r1 + r2) + across * bend)};
-  out.force << -h * (0.5 * load_ - bend * turned), -h * across / 12.0, -h * (0.5 * load_ + bend * turned),
-      h * across / 12.0;
-  const Vec2 coupling = h / 12.0 * turned;
-  for (const Index rotation : {2, 5})
-    for (const Index end : {0, 3}) {
-      const double sign = (rotation == 2) == (end == 0) ? 1.0 : -1.0;
-      out.stiffness.block<2, 1>(end, rotation) = sign * coupling;
-      out.stiffness.block<1, 2>(rotation, end) = sign * coupling.transpose();
+  const CubicAxis now(r1, angle1, r2, angle2);
+  const CubicAxis rest(Vec2::Zero(), stretch_.angles.front(), stretch_.chord, stretch_.angles.back());
+  const CubicAxis::Sum at_rest(rest);
+  CubicAxis::Sum sum(now);
+  std::array<CubicAxis::Sum, 2> rate{sum, sum};
+  Response out;
+  const GaussRule rule = gauss_rule(3);
+  for (std::size_t g = 0; g < 3; ++g) {
+    const double xi = 0.5 * (1.0 + rule.xi[g]), ds = 0.5 * rule.weight[g] * stretch_.length;
+    const double S = from_ + xi * (to_ - from_);
+    const double angle = load_.is_straight() ? 0.0 : interpolated_angle(stretch_.angles, xi);
+    const Vec2 q = load_.at(S, angle);
+    out.energy -= ds * q.dot(sum.position(xi) - at_rest.position(xi));
+    sum.add_slope(xi, -ds * q);
+    for (std::size_t end = 0; end < 2; ++end) {
+      Vec2 by_end = stretch_.length_rate[end] / stretch_.length * q + (end == 0 ? 1.0 - xi : xi) * load_.by_S(angle);
+      if (!load_.is_straight()) by_end += interpolated_angle(stretch_.angle_rate[end], xi) * load_.by_angle(S, angle);
+      rate[end].add_slope(xi, -ds * by_end);
     }
-  for (std::size_t i = 0; i < 2; ++i) out.force_rate[i] = length_rate_[i] / h * out.force;
+  }
+  out.force = sum.gradient();
+  out.stiffness = sum.hessian();
+  for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] = rate[end].gradient();
   return out;
 }
 
+double BeamDistributedLoad::evaluate(const double* u, double* f, double* K) const {
+  const Vec2 second = chord_ + Vec2(u[3], u[4]);
+  const auto response = along_.respond({u[0], u[1]}, angles_[0] + u[2], second, angles_[1] + u[5]);
+  if (f != nullptr) std::copy_n(response.force.data(), response.force.size(), f);
+  if (K != nullptr) std::copy_n(response.stiffness.data(), response.stiffness.size(), K);
+  return response.energy;
+}
+
 double TrussDistributedLoad::evaluate(const double* u, double* f, double* K) const {
-  if (f != nullptr) {
-    f[0] = f[2] = -0.5 * resultant_.x();
-    f[1] = f[3] = -0.5 * resultant_.y();
+  double V = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double force = forces_[i / 2][static_cast<Index>(i % 2)];
+    V -= force * u[i];
+    if (f != nullptr) f[i] = -force;
   }
   if (K != nullptr) std::fill(K, K + 16, 0.0);
-  return -0.5 * (resultant_.x() * (u[0] + u[2]) + resultant_.y() * (u[1] + u[3]));
+  return V;
+}
+
+void combine(const DrivenLineLoad& load, std::vector<DrivenLineLoad>& to) {
+  const auto is_alike = [&](const DrivenLineLoad& other) {
+    return other.load.frame == load.load.frame && other.load.measure == load.load.measure &&
+           other.factor == load.factor;
+  };
+  const auto same = std::find_if(to.begin(), to.end(), is_alike);
+  if (same == to.end()) return to.push_back(load);
+  same->load.first += load.load.first;
+  same->load.slope += load.load.slope;
 }
 
 }  // namespace arcwall

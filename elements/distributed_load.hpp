@@ -1,11 +1,12 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <utility>
 
-#include "elements/classic_beam.hpp"
 #include "elements/driven.hpp"
 #include "elements/element.hpp"
+#include "elements/line_load.hpp"
 #include "elements/slender_beam.hpp"
 
 namespace arcwall {
@@ -25,30 +26,17 @@ class DrivenLoad final : public DrivenElement {
   Driven factor_;
 };
 
-/// Potential of a dead load q per length of the undeformed axis on a classic beam element:
+/// Potential of a dead load along a stretch, by its length:
 ///
-///     V = −h q·[(r1 + r2)/2 + Δr⊥ (φ1 − φ2)/12]
+///     V = −∫ q(S)·(r(S) − R(S)) dS
 ///
-/// with node displacements in r, the current chord Δr turned by +90° and end angles φ: the mean position of Hermite's
-/// cubic. Unknowns as in ClassicBeam. Measured from the undeformed state.
-class BeamDistributedLoad final : public Element {
- public:
-  BeamDistributedLoad(const BeamReference& reference, const Vec2& load) : reference_(reference), load_(load) {}
-
-  int unknown_count() const override { return 6; }
-  double evaluate(const double* u, double* f, double* K) const override;
-
- private:
-  BeamReference reference_;
-  Vec2 load_;  // [force/length]
-};
-
-/// The same on a stretch between points that may slide, by where its ends are: r are places and φ the angles of the
-/// axis' tangent, of which only the difference counts.
+/// with places r now and R at rest on the CubicAxis of the ends, which the ends of the stretch may slide along. Exact
+/// for a load that is linear along a straight axis, else of order 4.
 class StretchLoad {
  public:
-  StretchLoad(const StretchReference& stretch, const Vec2& load)
-      : length_(stretch.length), length_rate_(stretch.length_rate), load_(load) {}
+  /// The stretch begins and ends at these arc lengths of the member.
+  StretchLoad(const StretchReference& stretch, const LineLoad& load, double from = 0.0, double to = 0.0)
+      : stretch_(stretch), load_(load), from_(from), to_(to) {}
 
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -60,25 +48,44 @@ class StretchLoad {
     Matrix6 stiffness = Matrix6::Zero();
     std::array<Vector6, 2> force_rate{Vector6::Zero(), Vector6::Zero()};  ///< ∂force/∂S1, ∂force/∂S2
   };
+  /// Places are measured from the stress-free place of the first end, angles are those of the axis' tangent.
   Response respond(const Vec2& r1, double angle1, const Vec2& r2, double angle2) const;
 
  private:
-  double length_;
-  std::array<double, 2> length_rate_;
-  Vec2 load_;
+  StretchReference stretch_;
+  LineLoad load_;
+  double from_, to_;
 };
 
-/// The same for a bar: half of the load at each end. Unknowns as in Truss.
+/// The same on an element of a classic or elastica beam, whose unknowns it has: displacements and rotations of both
+/// ends.
+class BeamDistributedLoad final : public Element {
+ public:
+  BeamDistributedLoad(const StretchReference& stretch, const LineLoad& load, double from = 0.0, double to = 0.0)
+      : along_(stretch, load, from, to),
+        chord_(stretch.chord),
+        angles_{stretch.angles.front(), stretch.angles.back()} {}
+
+  int unknown_count() const override { return 6; }
+  double evaluate(const double* u, double* f, double* K) const override;
+
+ private:
+  StretchLoad along_;
+  Vec2 chord_;  // stress-free
+  std::array<double, 2> angles_;
+};
+
+/// The same for a bar, whose unknowns are those of Truss.
 class TrussDistributedLoad final : public Element {
  public:
-  /// `resultant` = load times the bar's undeformed length [force].
-  explicit TrussDistributedLoad(const Vec2& resultant) : resultant_(resultant) {}
+  /// `forces`: at its ends, the integrals of the load by linear shape functions [force].
+  explicit TrussDistributedLoad(const std::array<Vec2, 2>& forces) : forces_(forces) {}
 
   int unknown_count() const override { return 4; }
   double evaluate(const double* u, double* f, double* K) const override;
 
  private:
-  Vec2 resultant_;
+  std::array<Vec2, 2> forces_;
 };
 
 }  // namespace arcwall

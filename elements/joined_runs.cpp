@@ -34,7 +34,7 @@ void turn_over(Driven& driven) { driven = {.constant = -driven.constant, .propor
 
 }  // namespace
 
-// The same, travelled the other way: what counts along it and across it has the other sign.
+// The same under uniform loads, travelled the other way: what counts along it and across it has the other sign.
 SlidingStructure::Run SlidingStructure::reversed(const Run& run) {
   const auto at = [&](double s) { return run.axis->at(run.offset + s).position; };
   const double L = run.length;
@@ -57,25 +57,25 @@ SlidingStructure::Run SlidingStructure::reversed(const Run& run) {
   std::reverse(out.point_loads.begin(), out.point_loads.end());
   std::reverse(out.load_places.begin(), out.load_places.end());
   for (double& place : out.load_places) place = L - place;
-  out.axis_load = -run.axis_load;
-  out.constant_axis_load = -run.constant_axis_load;
+  for (DrivenLineLoad& load : out.loads)
+    if (load.load.frame == LoadFrame::member) load.load.first = -load.load.first;
   turn_over(out.pressure);
   turn_over(out.thermal.curvature);
   return out;
 }
 
 // Whether a strand may run from the end of one run into the beginning of another: both are perfect, of one section and
-// loaded alike, and lie on one line or on one circle.
+// uniformly loaded alike, and lie on one line or on one circle.
 bool SlidingStructure::passes(const Run& a, const Run& b, const std::vector<bool>& with_terms,
                               const CarriesForceAlone& carries_force_alone) const {
   const End &end = a.ends[1], &next = b.ends[0];
   const Index node = node_of(end);
   if (with_terms[static_cast<std::size_t>(node)] && !carries_force_alone(node, end.dof[2])) return false;
+  const auto is_uniform = [](const DrivenLineLoad& load) { return load.load.is_uniform(); };
   const bool is_alike = a.theory == b.theory && a.order == b.order && a.section.E == b.section.E &&
                         a.section.A == b.section.A && a.section.I == b.section.I &&
-                        a.section.height == b.section.height && a.load == b.load &&
-                        a.constant_load == b.constant_load && a.axis_load == b.axis_load &&
-                        a.constant_axis_load == b.constant_axis_load && a.foundation == b.foundation &&
+                        a.section.height == b.section.height && a.loads == b.loads &&
+                        std::all_of(a.loads.begin(), a.loads.end(), is_uniform) && a.foundation == b.foundation &&
                         a.pressure == b.pressure && a.thermal == b.thermal;
   if (!is_alike) return false;
   const std::optional<double> first = curvature_of(*a.axis), second = curvature_of(*b.axis);

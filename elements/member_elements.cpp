@@ -1,9 +1,9 @@
 #include "elements/member_elements.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "core/unit_tangent.hpp"
-#include "elements/axis_load.hpp"
 #include "elements/classic_beam.hpp"
 #include "elements/distributed_load.hpp"
 #include "elements/elastica_beam.hpp"
@@ -109,12 +109,6 @@ std::unique_ptr<Element> make_element(const MemberElement& at) {
   return nullptr;
 }
 
-// Along and across the stress-free axis, in x and z at a fraction of the element.
-Vec2 turned_load(const MemberElement& at, const Vec2& load, double fraction) {
-  const Vec2 t = unit_tangent(at.shape.at(at.arc(fraction)).angle);
-  return load.x() * t + load.y() * perp(t);
-}
-
 }  // namespace
 
 void add_elements(const MemberDescription& member, const MemberMesh& mesh, const ThermalStrain& thermal,
@@ -134,33 +128,25 @@ void add_elements(const MemberDescription& member, const MemberMesh& mesh, const
     for (std::size_t k = 0; k < count; ++k) elements.add(make(k));
 }
 
-std::unique_ptr<Element> make_load(const MemberElement& at, const Vec2& load) {
+std::unique_ptr<Element> make_load(const MemberElement& at, const LineLoad& load) {
+  const auto along = [&](double fraction) {
+    const double S = at.arc(fraction);
+    return load.at(S, load.is_straight() ? 0.0 : at.shape.at(S).angle);
+  };
   switch (at.member.theory) {
     case Theory::euler_bernoulli:
     case Theory::elastica:
-      return std::make_unique<BeamDistributedLoad>(beam_reference(at), load);
+      return std::make_unique<BeamDistributedLoad>(slender_reference(at), load, at.arc(0.0), at.arc(1.0));
     case Theory::reissner:
-      return std::make_unique<ExactDistributedLoad>(exact_reference(at), load);
+      return std::make_unique<ExactDistributedLoad>(exact_reference(at), along);
     case Theory::essenburg:
-      return std::make_unique<ExactDistributedLoad>(exact_reference(at), load, EssenburgBeam::unknowns_a_node);
-    case Theory::truss:
-      return std::make_unique<TrussDistributedLoad>(beam_reference(at).length * load);
-  }
-  return nullptr;
-}
-
-std::unique_ptr<Element> make_axis_load(const MemberElement& at, const Vec2& load) {
-  const auto turned = [&](double fraction) { return turned_load(at, load, fraction); };
-  switch (at.member.theory) {
-    case Theory::euler_bernoulli:
-    case Theory::elastica:
-      return std::make_unique<BeamAxisLoad>(slender_reference(at), load);
-    case Theory::reissner:
-      return std::make_unique<ExactDistributedLoad>(exact_reference(at), turned);
-    case Theory::essenburg:
-      return std::make_unique<ExactDistributedLoad>(exact_reference(at), turned, EssenburgBeam::unknowns_a_node);
-    case Theory::truss:
-      return std::make_unique<TrussDistributedLoad>(beam_reference(at).length * turned(0.5));
+      return std::make_unique<ExactDistributedLoad>(exact_reference(at), along, EssenburgBeam::unknowns_a_node);
+    case Theory::truss: {  // straight: the load is linear
+      const Vec2 first = along(0.0), second = along(1.0);
+      const double L = beam_reference(at).length;
+      return std::make_unique<TrussDistributedLoad>(
+          std::array<Vec2, 2>{L / 6.0 * (2.0 * first + second), L / 6.0 * (first + 2.0 * second)});
+    }
   }
   return nullptr;
 }

@@ -33,11 +33,8 @@ struct MemberElement {
 void add_elements(const MemberDescription& member, const MemberMesh& mesh, const ThermalStrain& thermal,
                   ElementList& elements);
 
-/// A dead load along an element, in x and z [force by length of the stress-free axis].
-std::unique_ptr<Element> make_load(const MemberElement& at, const Vec2& load);
-
-/// The same along and across the stress-free axis.
-std::unique_ptr<Element> make_axis_load(const MemberElement& at, const Vec2& load);
+/// A dead load along an element.
+std::unique_ptr<Element> make_load(const MemberElement& at, const LineLoad& load);
 
 /// A foundation along an element; bars have none.
 std::unique_ptr<Element> make_foundation(const MemberElement& at, const FoundationLaw& law);

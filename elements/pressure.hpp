@@ -1,5 +1,6 @@
 #pragma once
 
+#include "elements/classic_beam.hpp"
 #include "elements/distributed_load.hpp"
 #include "elements/element.hpp"
 #include "elements/reissner_beam.hpp"

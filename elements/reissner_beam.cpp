@@ -123,8 +123,8 @@ void ReissnerBeam::add_stiffness(const GaussPoint& at, std::size_t nodes, const 
 ExactDistributedLoad::ExactDistributedLoad(const ExactBeamReference& reference,
                                            const std::function<Vec2(double)>& load_at, int unknowns_a_node)
     : forces_(reference.nodes.size(), Vec2::Zero()), stride_(unknowns_a_node) {
-  const GaussRule rule = gauss_rule(reference.order());
-  for (std::size_t g = 0; g + 1 < forces_.size(); ++g) {
+  const GaussRule rule = gauss_rule(reference.order() + 1);  // exact for a load that is linear along a straight axis
+  for (std::size_t g = 0; g < forces_.size(); ++g) {
     const ShapeFunctions shape = shape_functions(reference.order(), rule.xi[g]);
     const double ds = rule.weight[g] * arc_speed(reference, shape);
     const Vec2 load = load_at(0.5 * (1.0 + rule.xi[g]));

@@ -83,12 +83,8 @@ class ReissnerBeam final : public Element {
 /// beam with displacements of the same shape functions: V = −∫ q·u ds, linear in the displacements.
 class ExactDistributedLoad final : public Element {
  public:
-  /// `load` [force/length]. Of the unknowns of each node the first two are the displacements.
-  ExactDistributedLoad(const ExactBeamReference& reference, const Vec2& load, int unknowns_a_node = 3)
-      : ExactDistributedLoad(
-            reference, [load](double) { return load; }, unknowns_a_node) {}
-
-  /// The load at a fraction of the stretch.
+  /// `load_at`: at a fraction of the stretch [force/length]. Of the unknowns of each node the first two are the
+  /// displacements.
   ExactDistributedLoad(const ExactBeamReference& reference, const std::function<Vec2(double)>& load_at,
                        int unknowns_a_node = 3);
 

@@ -204,7 +204,7 @@ StretchReference SlidingStructureMesh::reference(Index strand, Index position, c
   return stretch_reference(
       *described.shape, described.offset + coordinate(strand, position, now.s),
       described.offset + coordinate(strand, position + 1, now.s),
-      described.theory == Theory::elastica || !described.thermal.is_zero() || described.carries_axis_load()
+      described.theory == Theory::elastica || !described.thermal.is_zero() || described.load_turns()
           ? Inside::wanted
           : Inside::left_out);
 }
@@ -231,8 +231,7 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond_unloaded(Index stra
                .force_rate = {at_ends(beam_response.force_rate[0]), at_ends(beam_response.force_rate[1])}};
   if (!described.thermal.is_zero())
     out.force_lambda = heat_rate(stretch, described.slender(), described.thermal, now.lambda, at.between());
-  if (described.carries_load()) add_load(described, stretch, at, now.lambda, out);
-  if (described.carries_axis_load()) add_axis_load(strand, position, stretch, at, now, out);
+  if (!described.loads.empty()) add_loads(strand, position, stretch, at, now, out);
   if (described.has_foundation()) {
     const MaterialPoint first{.strand = strand, .s = coordinate(strand, position, now.s)};
     add_foundation(described, stretch, structure_.undeformed(first, true).position, at, out);

@@ -122,10 +122,8 @@ class SlidingStructureMesh final : public SlidingMesh {
   // With and without the point loads inside the element.
   Response respond(Index strand, Index position, const MeshState& now, bool with_rates) const;
   Response respond_unloaded(Index strand, Index position, const MeshState& now, bool with_rates) const;
-  static void add_load(const SlidingStructure::Run& strand, const StretchReference& stretch, const Ends& at,
-                       double lambda, Response& out);
-  void add_axis_load(Index strand, Index position, const StretchReference& stretch, const Ends& at,
-                     const MeshState& now, Response& out) const;
+  void add_loads(Index strand, Index position, const StretchReference& stretch, const Ends& at, const MeshState& now,
+                 Response& out) const;
   void add_pressure(Index strand, Index position, const Ends& at, const MeshState& now, Response& out) const;
   Response with_end_forces(Response response, Index strand, Index position, const MeshState& now) const;
 

@@ -1,5 +1,5 @@
 // What acts along the elements of a mesh that slides.
-#include "elements/axis_load.hpp"
+#include "elements/distributed_load.hpp"
 #include "elements/foundation.hpp"
 #include "elements/pressure.hpp"
 #include "elements/sliding_mesh.hpp"
@@ -7,36 +7,21 @@
 namespace arcwall {
 
 // Adds the part of the load along the strand.
-void SlidingStructureMesh::add_load(const SlidingStructure::Run& strand, const StretchReference& stretch,
-                                    const Ends& at, double lambda, Response& out) {
-  const auto add = [&](const Vec2& load, double factor) {
-    const auto response = StretchLoad(stretch, load).respond(at.first, at.angle1, at.second, at.angle2);
-    out.energy += factor * response.energy;
-    out.force += factor * response.force;
-    out.stiffness += factor * response.stiffness;
-    for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += factor * response.force_rate[end];
-    return response.force;
-  };
-  out.force_lambda += add(strand.load, lambda);
-  add(strand.constant_load, 1.0);
-}
-
-void SlidingStructureMesh::add_axis_load(Index strand, Index position, const StretchReference& stretch, const Ends& at,
-                                         const MeshState& now, Response& out) const {
+void SlidingStructureMesh::add_loads(Index strand, Index position, const StretchReference& stretch, const Ends& at,
+                                     const MeshState& now, Response& out) const {
   const SlidingStructure::Run& described = structure_.at(strand);
-  const MaterialPoint start{.strand = strand, .s = coordinate(strand, position, now.s)};
-  const Vec2 rest = structure_.undeformed(start, true).position;
-  const auto add = [&](const Vec2& load, double factor) {
-    const auto response =
-        StretchAxisLoad(stretch, load).respond(at.first - rest, at.angle1, at.second - rest, at.angle2);
-    out.energy += factor * response.energy;
-    out.force += factor * response.force;
-    out.stiffness += factor * response.stiffness;
-    for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += factor * response.force_rate[end];
-    return response.force;
-  };
-  out.force_lambda += add(described.axis_load, now.lambda);
-  add(described.constant_axis_load, 1.0);
+  const double S1 = coordinate(strand, position, now.s), S2 = coordinate(strand, position + 1, now.s);
+  const Vec2 rest = structure_.undeformed({.strand = strand, .s = S1}, true).position;
+  for (const auto& [load, factor] : described.loads) {
+    const auto response = StretchLoad(stretch, load, described.offset + S1, described.offset + S2)
+                              .respond(at.first - rest, at.angle1, at.second - rest, at.angle2);
+    const double now_acts = factor.at(now.lambda);
+    out.energy += now_acts * response.energy;
+    out.force += now_acts * response.force;
+    out.stiffness += now_acts * response.stiffness;
+    for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += now_acts * response.force_rate[end];
+    out.force_lambda += factor.proportional * response.force;
+  }
 }
 
 void SlidingStructureMesh::add_pressure(Index strand, Index position, const Ends& at, const MeshState& now,

@@ -101,12 +101,9 @@ bool SlidingStructure::is_on_plane(Index strand, bool last) const {
 
 Vec2 SlidingStructure::load(const MaterialPoint& point, const AxisPlace& place, double stretch, double lambda) const {
   const Run& strand = at(point.strand);
-  Vec2 load = lambda * strand.load + strand.constant_load;
-  if (strand.carries_axis_load()) {
-    const Vec2 given = lambda * strand.axis_load + strand.constant_axis_load;
-    const Vec2 t = unit_tangent(undeformed(point, true).angle);
-    load += given.x() * t + given.y() * perp(t);
-  }
+  Vec2 load = Vec2::Zero();
+  const double angle = strand.load_turns() ? undeformed(point, true).angle : 0.0;
+  for (const auto& [along, factor] : strand.loads) load += factor.at(lambda) * along.at(strand.offset + point.s, angle);
   if (!strand.pressure.is_zero()) load -= strand.pressure.at(lambda) * stretch * perp(unit_tangent(place.angle));
   if (!strand.has_foundation()) return load;
   return load - strand.foundation.at(place.position - undeformed(point, true).position).force;
@@ -233,8 +230,6 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
   structure->origin_ = origin();
   structure->length_scale_ = box_diagonal(positions_);
   structure->force_scale_ = force_scale(structure->nodal_, structure->length_scale_);
-  const auto acts = [&](LoadKind kind) { return !ramp || kind == LoadKind::constant; };
-  const auto proportional = [&](LoadKind kind) { return ramp || kind == LoadKind::proportional; };
   const std::vector<ThermalStrain> thermal = thermal_of(ramp);
   const std::vector<Driven> pressures = pressures_of(ramp);
   const std::vector<bool> with_terms = nodes_with_terms();
@@ -247,22 +242,14 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
                                  .theory = member.theory,
                                  .order = member.order,
                                  .section = member.section,
+                                 .loads = loads_along(static_cast<Index>(m), ramp),
                                  .foundation = foundations_[m],
                                  .pressure = pressures[m],
                                  .thermal = thermal[m]};
     structure->force_scale_ =
         std::max(structure->force_scale_, std::abs(pressures[m].proportional) * member.axis->length());
-    for (const DistributedLoad& load : distributed_loads_) {
-      if (load.member != static_cast<Index>(m) || !acts(load.kind)) continue;
-      const bool grows = proportional(load.kind);
-      if (load.frame == LoadFrame::member) {
-        (grows ? strand.axis_load : strand.constant_axis_load) += load.load;
-      } else {
-        (grows ? strand.load : strand.constant_load) += load.load;
-      }
-      if (proportional(load.kind))
-        structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
-    }
+    for (const DrivenLineLoad& load : strand.loads)
+      structure->force_scale_ = std::max(structure->force_scale_, load.greatest_force(member.axis->length()));
     const auto end_at = [&](std::size_t node) {
       return SlidingStructure::End{
           .dof = {dof(mesh.nodes[node], Dof::x), dof(mesh.nodes[node], Dof::z), *mesh.rotations[node]},
@@ -300,9 +287,8 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
   structure->join_runs(
       with_terms, [this](Index node, Index rotation) { return carries_force_alone(node, rotation); }, alike);
   for (SlidingStructure::Run& strand : structure->runs_)
-    if (strand.theory == Theory::euler_bernoulli && strand.shape->is_straight() && !strand.carries_load() &&
-        !strand.carries_axis_load() && !strand.has_foundation() && strand.pressure.is_zero() &&
-        strand.thermal.is_zero())
+    if (strand.theory == Theory::euler_bernoulli && strand.shape->is_straight() && strand.loads.empty() &&
+        !strand.has_foundation() && strand.pressure.is_zero() && strand.thermal.is_zero())
       strand.beams.emplace(*strand.shape, strand.section.EA(), strand.section.EI());
   return structure;
 }

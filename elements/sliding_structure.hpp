@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "core/observable.hpp"
 #include "core/sliding_body.hpp"
 #include "elements/heated_beam.hpp"
+#include "elements/line_load.hpp"
 #include "elements/member_point.hpp"
 #include "elements/sliding_beam_lanes.hpp"
 
@@ -160,18 +162,19 @@ class SlidingStructure final : public SlidingBody {
     double length = 0.0, offset = 0.0;  // of the strand; where it begins on the axis
     std::vector<Part> parts{};
     std::array<End, 2> ends{};
-    Vec2 load = Vec2::Zero(), constant_load = Vec2::Zero();            // along the strand [force/length]
-    Vec2 axis_load = Vec2::Zero(), constant_axis_load = Vec2::Zero();  // the same, along its axis and across it
-    FoundationLaw foundation{};                                        // to the ground
-    Driven pressure{};                                                 // on its right [force/length]
-    std::vector<PointLoad> point_loads{};                              // inside the strand
-    std::vector<double> load_places{};                                 // of these
-    std::vector<InnerJoint> joints{};                                  // inside the strand
-    std::optional<SlidingBeamLanes> beams{};                           // where they can be evaluated side by side
-
-    bool carries_load() const { return !load.isZero() || !constant_load.isZero(); }
-    bool carries_axis_load() const { return !axis_load.isZero() || !constant_axis_load.isZero(); }
+    std::vector<DrivenLineLoad> loads{};      // by arc lengths of the axis
+    FoundationLaw foundation{};               // to the ground
+    Driven pressure{};                        // on its right [force/length]
+    std::vector<PointLoad> point_loads{};     // inside the strand
+    std::vector<double> load_places{};        // of these
+    std::vector<InnerJoint> joints{};         // inside the strand
+    std::optional<SlidingBeamLanes> beams{};  // where they can be evaluated side by side
     ThermalStrain thermal{};
+
+    // Whether a load depends on the direction of the axis.
+    bool load_turns() const {
+      return std::any_of(loads.begin(), loads.end(), [](const DrivenLineLoad& one) { return !one.load.is_straight(); });
+    }
 
     SlenderSection slender() const;
     bool has_foundation() const { return !foundation.is_zero(); }

@@ -17,6 +17,7 @@
 #include "elements/element_order.hpp"
 #include "elements/essenburg_beam.hpp"
 #include "elements/foundation_law.hpp"
+#include "elements/line_load.hpp"
 #include "elements/nodal_terms.hpp"
 #include "elements/section.hpp"
 #include "elements/thermal_strain.hpp"
@@ -33,10 +34,6 @@ enum class Theory { euler_bernoulli, elastica, reissner, essenburg, truss };
 
 /// A load is proportional to λ or constant.
 enum class LoadKind { proportional, constant };
-
-/// Axes of a distributed load: x and z, or along the stress-free axis and normal to it (positive to the left). Both are
-/// dead loads.
-enum class LoadFrame { global, member };
 
 /// Describes a member: a sequence of elements between two joints.
 struct MemberDescription {
@@ -285,8 +282,16 @@ class StructureBuilder {
   /// Adds a load [force], or a moment [force·length] on a rotation, positive in the degree of freedom.
   void add_load(Index dof, double value, LoadKind kind);
 
-  /// Adds a dead load along a member, by length of the stress-free axis [force/length].
-  void add_distributed_load(Index member, const Vec2& load, LoadKind kind, LoadFrame frame = LoadFrame::global);
+  /// Adds a dead load along a member.
+  void add_distributed_load(Index member, const LineLoad& load, LoadKind kind);
+
+  /// Adds a uniform dead load along a member, by length of the stress-free axis [force/length].
+  void add_distributed_load(Index member, const Vec2& load, LoadKind kind, LoadFrame frame = LoadFrame::global) {
+    add_distributed_load(member, LineLoad{.first = load, .frame = frame}, kind);
+  }
+
+  /// Returns the arc length of a member's stress-free axis without imperfection [length].
+  double length_of(Index member) const { return descriptions_[static_cast<std::size_t>(member)].axis->length(); }
 
   /// Adds a follower pressure on a beam, positive to the right of the member direction, by deformed length
   /// [force/length]. It is conservative if open_pressed_joint() is empty.
@@ -326,9 +331,8 @@ class StructureBuilder {
  private:
   struct DistributedLoad {
     Index member;
-    Vec2 load;
+    LineLoad load;
     LoadKind kind;
-    LoadFrame frame;
   };
 
   struct AddedElement {
@@ -383,6 +387,8 @@ class StructureBuilder {
   std::vector<std::int32_t> turning_sets() const;
   template <class Make>
   void add_along(Structure& structure, std::size_t m, const Make& make, bool is_grounded = false) const;
+  // The dead loads that act on a member, and what λ does to them.
+  std::vector<DrivenLineLoad> loads_along(Index member, bool ramp) const;
   void add_dead_loads(Structure& structure, bool ramp) const;
   void add_foundations(Structure& structure) const;
   void add_pressures(Structure& structure, bool ramp) const;

@@ -140,8 +140,8 @@ void StructureBuilder::add_load(Index dof, double value, LoadKind kind) {
   nodal_.add_load(dof, kind == LoadKind::proportional ? Driven{.proportional = value} : Driven{.constant = value});
 }
 
-void StructureBuilder::add_distributed_load(Index member, const Vec2& load, LoadKind kind, LoadFrame frame) {
-  distributed_loads_.push_back({.member = member, .load = load, .kind = kind, .frame = frame});
+void StructureBuilder::add_distributed_load(Index member, const LineLoad& load, LoadKind kind) {
+  distributed_loads_.push_back({.member = member, .load = load, .kind = kind});
 }
 
 void StructureBuilder::add_thermal_strain(Index member, const ThermalStrain& thermal) {
@@ -343,19 +343,24 @@ void StructureBuilder::add_along(Structure& structure, std::size_t m, const Make
          .is_grounded = is_grounded});
 }
 
-void StructureBuilder::add_dead_loads(Structure& structure, bool ramp) const {
-  for (const DistributedLoad& load : distributed_loads_) {
-    if (ramp && load.kind == LoadKind::proportional) continue;
-    const bool varies = load.kind == (ramp ? LoadKind::constant : LoadKind::proportional);
-    const Driven factor = varies ? Driven{.proportional = 1.0} : Driven{.constant = 1.0};
-    const auto m = static_cast<std::size_t>(load.member);
-    add_along(structure, m, [&](const MemberElement& at) {
-      return std::make_shared<DrivenLoad>(
-          load.frame == LoadFrame::member ? make_axis_load(at, load.load) : make_load(at, load.load), factor);
-    });
-    if (varies)
-      structure.force_scale_ = std::max(structure.force_scale_, load.load.norm() * descriptions_[m].axis->length());
+std::vector<DrivenLineLoad> StructureBuilder::loads_along(Index member, bool ramp) const {
+  std::vector<DrivenLineLoad> loads;
+  for (const DistributedLoad& one : distributed_loads_) {
+    if (one.member != member || (ramp && one.kind == LoadKind::proportional)) continue;
+    const bool varies = one.kind == (ramp ? LoadKind::constant : LoadKind::proportional);
+    combine({.load = one.load, .factor = varies ? Driven{.proportional = 1.0} : Driven{.constant = 1.0}}, loads);
   }
+  return loads;
+}
+
+void StructureBuilder::add_dead_loads(Structure& structure, bool ramp) const {
+  for (std::size_t m = 0; m < meshes_.size(); ++m)
+    for (const DrivenLineLoad& one : loads_along(static_cast<Index>(m), ramp)) {
+      add_along(structure, m, [&](const MemberElement& at) {
+        return std::make_shared<DrivenLoad>(make_load(at, one.load), one.factor);
+      });
+      structure.force_scale_ = std::max(structure.force_scale_, one.greatest_force(descriptions_[m].axis->length()));
+    }
 }
 
 void StructureBuilder::add_foundations(Structure& structure) const {

@@ -312,9 +312,10 @@ void add_loads(const deck::Deck& deck, bool coarse, DeckProblems& problems, Stru
         out.builder.add_pressure(out.places.members.at(pressure->member), driven(load, pressure->pressure));
     } else {
       const auto& on_member = std::get<deck::MemberLoad>(load.action);
-      if (out.places.members.contains(on_member.member))
-        out.builder.add_distributed_load(out.places.members.at(on_member.member), vec(on_member.distributed),
-                                         load.constant ? LoadKind::constant : LoadKind::proportional, on_member.frame);
+      if (!out.places.members.contains(on_member.member)) continue;
+      const Index member = out.places.members.at(on_member.member);
+      out.builder.add_distributed_load(member, on_member.along(out.builder.length_of(member)),
+                                       load.constant ? LoadKind::constant : LoadKind::proportional);
     }
   }
 }

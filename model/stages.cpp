@@ -14,7 +14,10 @@ void scale(deck::PointLoad& load, double factor) {
   load.force = times(factor, load.force);
   load.moment *= factor;
 }
-void scale(deck::MemberLoad& load, double factor) { load.distributed = times(factor, load.distributed); }
+void scale(deck::MemberLoad& load, double factor) {
+  load.distributed = times(factor, load.distributed);
+  if (load.distributed_to) load.distributed_to = times(factor, *load.distributed_to);
+}
 void scale(deck::Pressure& load, double factor) { load.pressure *= factor; }
 void scale(deck::Heat& heat, double factor) {
   heat.temperature *= factor;

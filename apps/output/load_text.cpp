@@ -34,8 +34,11 @@ LoadText load_words(const deck::PointLoad& load, const deck::Units& units) {
 LoadText load_words(const deck::MemberLoad& load, const deck::Units& units) {
   const std::string unit = unit_text(deck::unit::line_load, units);
   LoadText result{.text = "on " + load.member + " " + with_unit(pair_text(load.distributed), unit)};
+  if (load.distributed_to) result.text += " to " + with_unit(pair_text(*load.distributed_to), unit);
   if (load.frame == LoadFrame::member) result.text += " along and across its axis";
-  if (!unit.empty()) result.size = with_unit(short_number(std::hypot(load.distributed.x, load.distributed.z)), unit);
+  if (load.per == LoadMeasure::plan) result.text += " per length in x";
+  if (!unit.empty() && !load.distributed_to)
+    result.size = with_unit(short_number(std::hypot(load.distributed.x, load.distributed.z)), unit);
   return result;
 }
 

@@ -310,17 +310,14 @@ void add_spread_load(const deck::Deck& deck, const std::string& member, const Lo
   }
 }
 
-// In axes of the member it is turned as these are at rest.
+// It acts as the axis lies at rest.
 void add_load(const Model& model, const deck::MemberLoad& load, double factor, Scene& to) {
-  const Vec2 given(factor * load.distributed.x, factor * load.distributed.z);
   const auto everywhere = [&](const MemberShape& shape, double fraction) -> Vec2 {
-    if (load.frame == LoadFrame::global) return given;
     const auto& members = model.structure().members();
     const MemberMesh& mesh = members[static_cast<std::size_t>(&shape - to.shape.members.data())];
     const double elements = double(mesh.nodes.size() - 1);
     const double angle = mesh.shape[static_cast<std::size_t>(std::lround(fraction * elements))].angle;
-    const Vec2 t(std::cos(angle), std::sin(angle));
-    return given.x() * t + given.y() * perp(t);
+    return factor * load.along(1.0).at(fraction, angle);
   };
   add_spread_load(model.deck(), load.member, everywhere, to);
 }

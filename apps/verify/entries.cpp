@@ -43,21 +43,25 @@ double cubic_of_ends(const Function& f, double t) {
 }
 
 // By how much the curvature of the element's shape differs, at most, from κ₀ + M/EI, M being carried from the moments
-// at its ends by equilibrium: M = (1 − t) M₀ + t M₁ + (r − r₀ − t c) × f₀ − ½ t (1 − t) c × q l, c from end to end.
+// at its ends by equilibrium: M = (1 − t) M₀ + t M₁ + (r − r₀ − t c) × f₀ − t (1 − t) c × ((2 − t) q₀ + (1 + t) q₁)
+// l/6, c from end to end, under a load that is linear from q₀ to q₁.
 double curvature_error(const ElementBeside& beside, int places) {
   const auto& [at, wall, strand, position] = beside;
   const double length = beside.length();
   const auto ends = at.mesh.end_forces(strand, position, at.now);
   const Vec2 first = beside.place(0.0).position, chord = beside.place(1.0).position - first;
-  const MaterialPoint middle{.strand = strand, .s = 0.5 * (beside.coordinate(0) + beside.coordinate(1))};
-  const Vec2 load = length * at.body.load(middle, beside.place(0.5), chord.norm() / length, at.now.lambda);
+  const auto load_at = [&](Index end) -> Vec2 {
+    return length * at.body.load({.strand = strand, .s = beside.coordinate(end)}, beside.place(double(end)),
+                                 chord.norm() / length, at.now.lambda);
+  };
+  const Vec2 first_load = load_at(0), second_load = load_at(1);
   const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
   double worst = 0.0;
   for (int i = 1; i < places; ++i) {
     const double t = double(i) / places, r = 1.0 - t, step = 0.5 / places;
     const double moment = -r * ends[0][2] + t * ends[1][2] +
                           cross(beside.place(t).position - first - t * chord, ends[0].head<2>()) -
-                          0.5 * t * r * cross(chord, load);
+                          t * r / 6.0 * cross(chord, (1.0 + r) * first_load + (1.0 + t) * second_load);
     const double natural =
         at.body.natural_curvature({.strand = strand, .s = beside.coordinate(0) + t * length}, at.now.lambda);
     const double curvature = (beside.place(t + step).angle - beside.place(t - step).angle) / (2.0 * step * length);

@@ -239,6 +239,14 @@ PointsOfContact points_of_contact(const Deck& deck) {
           .why = "the default where all members are of theory euler-bernoulli or elastica"};
 }
 
+LineLoad MemberLoad::along(double length) const {
+  const Vector to = distributed_to.value_or(distributed);
+  return {.first = {distributed.x, distributed.z},
+          .slope = Vec2(to.x - distributed.x, to.z - distributed.z) / length,
+          .frame = frame,
+          .measure = per};
+}
+
 // Load increments end at the last value of output_at.lambda.
 Deck without_answers(Deck deck) {
   deck.path.sensitivity.clear();

@@ -217,6 +217,11 @@ struct MemberLoad {
   std::string member{};
   Vector distributed{};  ///< dead [force/length of the undeformed axis]
   LoadFrame frame = LoadFrame::global;
+  LoadMeasure per = LoadMeasure::axis;
+  std::optional<Vector> distributed_to{};  ///< at the end of the member, linear between; empty: uniform
+
+  /// As elements take it, on a member of a length.
+  LineLoad along(double length) const;
 
   bool operator==(const MemberLoad&) const = default;
 };

@@ -34,9 +34,10 @@ void prescribed_keys(Keys& keys, Prescribed& moved, const Deck& deck) {
     keys.report("at", "nothing is prescribed", "give at least one of x, z and rotation");
 }
 
-void frame_belongs_to_distributed(Keys& keys) {
-  if (keys.reads() && !keys.has("distributed"))
-    keys.applies(false, "frame", "belongs to a load that is distributed", "leave it out");
+void shape_belongs_to_distributed(Keys& keys) {
+  for (const char* key : {"distributed_to", "frame", "per"})
+    if (keys.reads() && !keys.has("distributed"))
+      keys.applies(false, key, "belongs to a load that is distributed", "leave it out");
 }
 
 void point_load_keys(Keys& keys, PointLoad& load) {
@@ -50,7 +51,7 @@ void point_load_keys(Keys& keys, PointLoad& load) {
     along = along || keys.has(key);
     if (keys.reads()) keys.applies(false, key, "belongs to a load on a member", "write `on` instead of `at`");
   }
-  frame_belongs_to_distributed(keys);
+  shape_belongs_to_distributed(keys);
   if (!along && !keys.has("force") && !keys.has("moment"))
     keys.report("force", "the load has neither force nor moment", "give at least one of them");
 }
@@ -66,8 +67,13 @@ void member_load_keys(Keys& keys, MemberLoad& load) {
     distributed.presence = Presence::optional;
   }
   keys.vector(distributed, load.distributed, unit::line_load, "`[x, z]`, dead, per length of the undeformed axis");
+  keys.part("distributed_to", load.distributed_to, [&](Vector& to) {
+    keys.vector(optional("distributed_to", "uniform"), to, unit::line_load,
+                "`[x, z]` at the member's end, linear from `distributed`");
+  });
   keys.word(optional("frame"), load.frame, frame_words,
             "of `distributed`: `\"member\"` gives components along the undeformed axis and across it, to the left");
+  keys.word(optional("per"), load.per, per_words, "of `distributed`: `\"x\"` per length of plan, as snow");
   for (const char* key : {"force", "moment"})
     keys.applies(false, key, "belongs to a load at a point", "write `at` instead of `on`, or give distributed");
 }
@@ -97,7 +103,7 @@ void heat_keys(Keys& keys, Heat& heat, const Deck& deck) {
       "through-depth temperature gradient [degree/length], positive if the left face is hotter; not for trusses");
   for (const char* key : {"distributed", "force", "moment"})
     keys.applies(keys.lists(), key, "does not go together with a temperature", "write two loads");
-  frame_belongs_to_distributed(keys);
+  shape_belongs_to_distributed(keys);
   if (keys.reads() && on) check_heat(keys, deck, heat);
 }
 
@@ -108,7 +114,7 @@ void pressure_keys(Keys& keys, Pressure& load, const Deck& deck) {
               "positive to the right; not for trusses");
   for (const char* key : {"distributed", "temperature", "gradient", "force", "moment"})
     keys.applies(keys.lists(), key, "does not go together with a pressure", "write two loads");
-  frame_belongs_to_distributed(keys);
+  shape_belongs_to_distributed(keys);
   const Member* member = keys.reads() && on ? find(deck.members, load.member) : nullptr;
   if (member != nullptr && member->theory == Theory::truss)
     keys.report("on", "member " + member->name + " is a truss, which cannot carry a pressure",
@@ -138,7 +144,9 @@ void load_keys(Keys& keys, Load& load, const Deck& deck) {
 }
 
 bool is_zero(const PointLoad& load) { return load.force == Vector{} && load.moment == 0.0; }
-bool is_zero(const MemberLoad& load) { return load.distributed == Vector{}; }
+bool is_zero(const MemberLoad& load) {
+  return load.distributed == Vector{} && load.distributed_to.value_or(Vector{}) == Vector{};
+}
 bool is_zero(const Pressure& load) { return load.pressure == 0.0; }
 bool is_zero(const Heat& heat) { return heat.temperature == 0.0 && heat.gradient == 0.0; }
 

@@ -54,6 +54,7 @@ inline constexpr Words<Dof, 3> spring_direction_words{{{"x", Dof::x}, {"z", Dof:
 inline constexpr Words<SpringLaw::Interpolation, 2> interpolation_words{
     {{"smooth", SpringLaw::Interpolation::smooth}, {"linear", SpringLaw::Interpolation::linear}}};
 inline constexpr Words<LoadFrame, 2> frame_words{{{"global", LoadFrame::global}, {"member", LoadFrame::member}}};
+inline constexpr Words<LoadMeasure, 2> per_words{{{"length", LoadMeasure::axis}, {"x", LoadMeasure::plan}}};
 inline constexpr Words<QuadraticTerm, 2> along_words{
     {{"fixed", QuadraticTerm::fixed}, {"director", QuadraticTerm::director}}};
 inline constexpr Words<TrussStrain, 3> strain_words{

@@ -136,7 +136,7 @@ TEST(ExactDistributedLoad, IsLinearAndItsForcesAddUp) {
   Numbers numbers(32);
   const Vec2 load(0.8, -2.0);
   for (const ExactBeamReference& reference : stretches()) {
-    const ExactDistributedLoad element(reference, load);
+    const ExactDistributedLoad element(reference, [&](double) { return load; });
     const Vector u = numbers.vector(element.unknown_count());
     expect_derivatives(element, u);
     const auto at = evaluated(element, u);
@@ -149,7 +149,8 @@ TEST(ExactDistributedLoad, IsLinearAndItsForcesAddUp) {
 
 // Equal parts: a sixth, four sixths, a sixth, which is Simpson's rule.
 TEST(ExactDistributedLoad, OfOrderTwoIsSharedAsInSimpsonsRule) {
-  const ExactDistributedLoad element({.nodes = {{0, 0}, {1, 0}, {2, 0}}, .arcs = {0.0, 1.0, 2.0}}, {0.0, 3.0});
+  const ExactDistributedLoad element({.nodes = {{0, 0}, {1, 0}, {2, 0}}, .arcs = {0.0, 1.0, 2.0}},
+                                     [](double) { return Vec2(0.0, 3.0); });
   const Vector f = -evaluated(element, Vector::Zero(9)).f;
   EXPECT_NEAR(f[1], 1.0, 1e-14);
   EXPECT_NEAR(f[4], 4.0, 1e-14);

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/types.hpp"
+#include "elements/driven.hpp"
+
+namespace arcwall {
+
+/// Axes of a distributed load: x and z, or along the stress-free axis and normal to it (positive to the left). Both are
+/// dead loads.
+enum class LoadFrame { global, member };
+
+/// Length that a distributed load is given by: of the stress-free axis, or of its projection on x.
+enum class LoadMeasure { axis, plan };
+
+/// A dead load along a member, linear between its ends: all that elements and contact know of one.
+struct LineLoad {
+  Vec2 first = Vec2::Zero();  ///< at the beginning of the member [force/length]
+  Vec2 slope = Vec2::Zero();  ///< by arc length of the stress-free axis [force/length²]
+  LoadFrame frame = LoadFrame::global;
+  LoadMeasure measure = LoadMeasure::axis;
+
+  bool is_uniform() const { return slope.isZero(); }
+  /// Whether it is a constant vector along a curved axis.
+  bool is_straight() const { return frame == LoadFrame::global && measure == LoadMeasure::axis; }
+
+  /// The load by length of the axis at an arc length S, where the stress-free axis has an angle [force/length].
+  Vec2 at(double S, double angle) const { return plan(angle) * turned(first + S * slope, angle); }
+
+  /// Its derivatives there, by S at constant angle and by the angle.
+  Vec2 by_S(double angle) const { return plan(angle) * turned(slope, angle); }
+  Vec2 by_angle(double S, double angle) const {
+    const Vec2 q = turned(first + S * slope, angle);
+    Vec2 rate = frame == LoadFrame::member ? Vec2(plan(angle) * perp(q)) : Vec2(Vec2::Zero());
+    if (measure == LoadMeasure::plan) rate -= std::copysign(1.0, std::cos(angle)) * std::sin(angle) * q;
+    return rate;
+  }
+
+  /// The greater one of those at its ends [force/length].
+  double greatest(double length) const { return std::max(first.norm(), (first + length * slope).norm()); }
+
+  bool operator==(const LineLoad&) const = default;
+
+ private:
+  double plan(double angle) const { return measure == LoadMeasure::plan ? std::abs(std::cos(angle)) : 1.0; }
+  Vec2 turned(const Vec2& given, double angle) const {
+    if (frame == LoadFrame::global) return given;
+    const Vec2 t(std::cos(angle), std::sin(angle));
+    return given.x() * t + given.y() * perp(t);
+  }
+};
+
+/// A dead load and what λ does to it.
+struct DrivenLineLoad {
+  LineLoad load{};
+  Driven factor{};
+
+  /// What λ = 1 drives along a member of a length, at most [force].
+  double greatest_force(double length) const { return std::abs(factor.proportional) * load.greatest(length) * length; }
+
+  bool operator==(const DrivenLineLoad&) const = default;
+};
+
+/// Adds a load to others; loads that differ in size alone become one.
+void combine(const DrivenLineLoad& load, std::vector<DrivenLineLoad>& to);
+
+}  // namespace arcwall
