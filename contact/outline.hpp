@@ -78,6 +78,10 @@ std::unique_ptr<Outline> closed_curve_outline(std::vector<Vec2> points, Keep kee
 std::unique_ptr<Outline> polyline_outline(std::vector<Vec2> points, double corner_radius);
 std::unique_ptr<Outline> closed_polyline_outline(std::vector<Vec2> points, double corner_radius, Keep keep);
 
+/// The same with a radius at each point; those at the ends of an open outline count for nothing.
+std::unique_ptr<Outline> polyline_outline(std::vector<Vec2> points, std::vector<double> radii);
+std::unique_ptr<Outline> closed_polyline_outline(std::vector<Vec2> points, std::vector<double> radii, Keep keep);
+
 /// A place behind an outline that faces it and is far from its line, but no farther than the line is long: of those
 /// behind the middles of a polygon along it.
 std::optional<Vec2> deepest_place(const Outline& outline, const std::vector<Vec2>& line);

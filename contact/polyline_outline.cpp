@@ -31,7 +31,8 @@ struct Rounding {
 // ends is met by one of them to round-off.
 class PolylineOutline final : public Outline {
  public:
-  PolylineOutline(const std::vector<Vec2>& points, double radius, bool is_closed) : is_closed_(is_closed) {
+  PolylineOutline(const std::vector<Vec2>& points, const std::vector<double>& radii, bool is_closed)
+      : is_closed_(is_closed) {
     const std::size_t count = points.size(), flanks = is_closed ? count : count - 1;
     std::vector<Vec2> tangents;
     double size = 0.0;
@@ -44,20 +45,22 @@ class PolylineOutline final : public Outline {
       const bool is_end = !is_closed && i + 1 == flanks;
       return is_end ? 0.0 : turn_between(tangents[i], tangents[(i + 1) % flanks]);
     };
-    const auto taken = [&](double turn) { return radius * std::tan(0.5 * std::abs(turn)); };
+    const auto taken = [&](std::size_t point, double turn) { return radii[point] * std::tan(0.5 * std::abs(turn)); };
     double along = 0.0;
     for (std::size_t i = 0; i < flanks; ++i) {
       const double before = i > 0 || is_closed ? turn_at((i + flanks - 1) % flanks) : 0.0, behind = turn_at(i);
-      const double length = (points[(i + 1) % count] - points[i]).norm() - taken(before) - taken(behind);
+      const std::size_t next = (i + 1) % count;
+      const double length = (points[next] - points[i]).norm() - taken(i, before) - taken(next, behind);
       flanks_.push_back({.along = along,
-                         .from = points[i] + taken(before) * tangents[i],
+                         .from = points[i] + taken(i, before) * tangents[i],
                          .tangent = tangents[i],
                          .length = std::max(length, 0.0)});
       along += length;
       if (behind == 0.0) continue;
       const Vec2 left = perp(tangents[i]);
       const Vec2 inward = behind > 0.0 ? left : Vec2(-left);  // to the centre
-      const Vec2 end = points[(i + 1) % count] - taken(behind) * tangents[i];
+      const Vec2 end = points[next] - taken(next, behind) * tangents[i];
+      const double radius = radii[next];
       const double per_angle = std::max(radius, size / (20.0 * pi));
       roundings_.push_back({.along = along,
                             .centre = end + radius * inward,
@@ -66,7 +69,7 @@ class PolylineOutline final : public Outline {
                             .turn = behind,
                             .per_angle = per_angle});
       along += per_angle * std::abs(behind);
-      if (behind > 0.0 && radius > 0.0) sharpest_ = 1.0 / radius;
+      if (behind > 0.0 && radius > 0.0) sharpest_ = std::max(sharpest_, 1.0 / radius);
     }
     end_ = along;
     if (!is_closed || doubled_area(points) < 0.0) core_ = deepest_place(*this, this->points(0.0));
@@ -188,12 +191,25 @@ class PolylineOutline final : public Outline {
 }  // namespace
 
 std::unique_ptr<Outline> polyline_outline(std::vector<Vec2> points, double corner_radius) {
-  return std::make_unique<PolylineOutline>(points, corner_radius, false);
+  const std::vector<double> radii(points.size(), corner_radius);
+  return polyline_outline(std::move(points), radii);
 }
 
 std::unique_ptr<Outline> closed_polyline_outline(std::vector<Vec2> points, double corner_radius, Keep keep) {
-  if ((doubled_area(points) > 0.0) == (keep == Keep::outside)) std::reverse(points.begin(), points.end());
-  return std::make_unique<PolylineOutline>(points, corner_radius, true);
+  const std::vector<double> radii(points.size(), corner_radius);
+  return closed_polyline_outline(std::move(points), radii, keep);
+}
+
+std::unique_ptr<Outline> polyline_outline(std::vector<Vec2> points, std::vector<double> radii) {
+  return std::make_unique<PolylineOutline>(points, radii, false);
+}
+
+std::unique_ptr<Outline> closed_polyline_outline(std::vector<Vec2> points, std::vector<double> radii, Keep keep) {
+  if ((doubled_area(points) > 0.0) == (keep == Keep::outside)) {
+    std::reverse(points.begin(), points.end());
+    std::reverse(radii.begin(), radii.end());
+  }
+  return std::make_unique<PolylineOutline>(points, radii, true);
 }
 
 }  // namespace arcwall

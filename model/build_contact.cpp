@@ -154,11 +154,13 @@ RigidMotion motion_of(const deck::Wall& wall) {
 
 std::vector<deck::Wall> parts_of(const deck::Wall& wall) {
   const auto* line = wall.outline ? std::get_if<deck::PolylineOutline>(&*wall.outline) : nullptr;
-  if (line == nullptr || wall.corner_radius > 0.0) return {wall};
+  if (line == nullptr) return {wall};
   std::vector<deck::Wall> parts;
-  for (deck::PolylineOutline& part : line->without_hollows()) {
+  for (deck::PolylineOutline::Part& part : line->without_sharp_hollows(wall.radii())) {
     parts.push_back(wall);
-    parts.back().outline = std::move(part);
+    if (!part.outline.closed) part.radii = {part.radii.begin() + 1, part.radii.end() - 1};
+    parts.back().outline = std::move(part.outline);
+    if (!wall.corner_radii.empty()) parts.back().corner_radii = std::move(part.radii);
   }
   return parts;
 }
@@ -172,7 +174,7 @@ std::vector<deck::Wall> walls_in_parts(const deck::Deck& deck) {
 
 std::unique_ptr<Outline> outline_of(const deck::Wall& wall) {
   struct Maker {
-    double corner_radius;
+    const deck::Wall& wall;
     std::unique_ptr<Outline> operator()(const deck::HalfPlaneOutline& o) const {
       return half_plane_outline({o.point.x, o.point.z}, {o.normal.x, o.normal.z});
     }
@@ -180,8 +182,8 @@ std::unique_ptr<Outline> outline_of(const deck::Wall& wall) {
       return circle_outline({o.centre.x, o.centre.z}, o.radius, o.keep);
     }
     std::unique_ptr<Outline> operator()(const deck::PolylineOutline& o) const {
-      return o.closed ? closed_polyline_outline(o.points(), corner_radius, o.keep)
-                      : polyline_outline(o.points(), corner_radius);
+      return o.closed ? closed_polyline_outline(o.points(), wall.radii(), o.keep)
+                      : polyline_outline(o.points(), wall.radii());
     }
     std::unique_ptr<Outline> operator()(const deck::EllipseOutline& o) const {
       return ellipse_outline({o.centre.x, o.centre.z}, {o.axes.x, o.axes.z}, o.angle, o.keep);
@@ -190,7 +192,7 @@ std::unique_ptr<Outline> outline_of(const deck::Wall& wall) {
       return o.closed ? closed_curve_outline(o.points(), o.keep) : curve_outline(o.points());
     }
   };
-  return std::visit(Maker{wall.corner_radius}, *wall.outline);
+  return std::visit(Maker{wall}, *wall.outline);
 }
 
 std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall, double half_height) {
@@ -265,8 +267,10 @@ double kept_off(const deck::Wall& wall, double height) {
 }
 
 bool has_sharp_corners(const deck::Wall& wall) {
-  return wall.outline && std::holds_alternative<deck::PolylineOutline>(*wall.outline) && wall.corner_radius == 0.0 &&
-         std::get<deck::PolylineOutline>(*wall.outline).x.size() > 2;
+  if (!wall.outline || !std::holds_alternative<deck::PolylineOutline>(*wall.outline)) return false;
+  const std::vector<double> radii = wall.radii();
+  const auto corners = std::get<deck::PolylineOutline>(*wall.outline).corners();
+  return std::any_of(corners.begin(), corners.end(), [&](const auto& corner) { return radii[corner.point] == 0.0; });
 }
 
 // Whether a wall has a corner that is one of two knife edges.

@@ -61,13 +61,15 @@ std::string text_of(const FirstGap& first, bool at_nodes, const deck::Deck& deck
 
 std::string where_it_is(const deck::Wall& wall) {
   struct Words {
-    double corner_radius;
+    const deck::Wall& wall;
     std::string operator()(const deck::HalfPlaneOutline&) const { return "half-plane"; }
     std::string operator()(const deck::CircleOutline& o) const { return text("circle", true, o.keep); }
     std::string operator()(const deck::EllipseOutline& o) const { return text("ellipse", true, o.keep); }
     std::string operator()(const deck::CurveOutline& o) const { return text("curve", o.closed, o.keep); }
     std::string operator()(const deck::PolylineOutline& o) const {
-      const std::string corners = corner_radius > 0.0 ? fmt::format(" rounded with {:.6g}", corner_radius) : "";
+      std::string corners = wall.corner_radius > 0.0 ? fmt::format(" rounded with {:.6g}", wall.corner_radius) : "";
+      for (const double radius : wall.corner_radii)
+        corners += (corners.empty() ? " rounded with " : ", ") + fmt::format("{:.6g}", radius);
       return text("polyline" + corners, o.closed, o.keep);
     }
     static std::string text(const std::string& what, bool is_closed, Keep keep) {
@@ -75,7 +77,7 @@ std::string where_it_is(const deck::Wall& wall) {
       return what + ", the structure " + deck::text_of(deck::keep_words, keep);
     }
   };
-  if (wall.outline) return std::visit(Words{wall.corner_radius}, *wall.outline);
+  if (wall.outline) return std::visit(Words{wall}, *wall.outline);
   return deck::text_of(deck::side_words, wall.side) + " the structure";
 }
 

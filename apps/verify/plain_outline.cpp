@@ -47,7 +47,10 @@ PlainOutline::PlainOutline(const deck::Wall& wall) : outline_(*wall.outline) {
   if (const auto* polyline = std::get_if<deck::PolylineOutline>(&outline_)) {
     is_closed_ = polyline->closed;
     stays_outside_ = polyline->keep == Keep::outside;
-    make_parts(in_order(*polyline), is_closed_, wall.corner_radius);
+    std::vector<double> radii = wall.radii();
+    const std::vector<Vec2> corners = in_order(*polyline);
+    if (corners.front() != polyline->points().front()) std::reverse(radii.begin(), radii.end());
+    make_parts(corners, radii, is_closed_);
   }
   if (const auto* curve = std::get_if<deck::CurveOutline>(&outline_)) {
     is_closed_ = curve->closed;
@@ -146,7 +149,7 @@ PlainOutline::Nearest PlainOutline::nearest_of_ellipse(const deck::EllipseOutlin
 }
 
 // The centre of a corner's arc is where the lines at the radius from both sides meet.
-void PlainOutline::make_parts(std::vector<Vec2> corners, bool is_closed, double corner_radius) {
+void PlainOutline::make_parts(const std::vector<Vec2>& corners, const std::vector<double>& radii, bool is_closed) {
   const std::size_t count = corners.size(), lines = is_closed ? count : count - 1;
   const auto direction = [&](std::size_t i) { return (corners[(i + 1) % count] - corners[i % count]).normalized(); };
   std::vector<Part> arcs(count);
@@ -156,8 +159,9 @@ void PlainOutline::make_parts(std::vector<Vec2> corners, bool is_closed, double 
     if (!is_closed && (i == 0 || i + 1 == count)) continue;
     const Vec2 before = direction(i + count - 1), behind = direction(i);
     const double turn = before.x() * behind.y() - before.y() * behind.x();
-    arc.radius = turn > 0.0 ? -corner_radius : corner_radius;
-    if (corner_radius == 0.0 || turn == 0.0) continue;
+    arc.radius = turn > 0.0 ? -radii[i] : radii[i];
+    if (radii[i] == 0.0 || turn == 0.0) continue;
+    width_ = std::min(width_, 2.0 * radii[i]);
     const Vec2 from_first = -arc.radius * perp(before), from_second = -arc.radius * perp(behind);
     arc.centre = meeting(corners[i] + from_first, before, corners[i] + from_second, behind);
     arc.from = arc.centre - from_first;
@@ -168,7 +172,6 @@ void PlainOutline::make_parts(std::vector<Vec2> corners, bool is_closed, double 
     width_ = std::min(width_, (parts_.back().to - parts_.back().from).norm());
     if (is_closed || i + 1 < lines) parts_.push_back(arcs[(i + 1) % count]);
   }
-  if (corner_radius > 0.0) width_ = std::min(width_, 2.0 * corner_radius);
 }
 
 // The nearest of the nearest places of all parts, their ends included.

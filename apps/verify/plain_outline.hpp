@@ -41,7 +41,7 @@ class PlainOutline {
   Nearest nearest_of_ellipse(const deck::EllipseOutline& ellipse, const Vec2& point) const;
   Nearest nearest_of_parts(const Vec2& point) const;
   Nearest nearest_of_curve(const Vec2& point) const;
-  void make_parts(std::vector<Vec2> corners, bool is_closed, double corner_radius);
+  void make_parts(const std::vector<Vec2>& corners, const std::vector<double>& radii, bool is_closed);
   void make_curve(std::vector<Vec2> points, bool is_closed);
 
   // A place of the curve by its parameter, with the first two derivatives.

@@ -68,13 +68,22 @@ std::vector<PolylineOutline::Corner> PolylineOutline::corners() const {
   return corners;
 }
 
-std::vector<PolylineOutline> PolylineOutline::without_hollows() const {
+std::vector<double> Wall::radii() const {
+  const auto& line = std::get<PolylineOutline>(*outline);
+  std::vector<double> radii(line.x.size(), 0.0);
+  const std::vector<PolylineOutline::Corner> corners = line.corners();
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    radii[corners[i].point] = corner_radii.empty() ? corner_radius : corner_radii[i];
+  return radii;
+}
+
+std::vector<PolylineOutline::Part> PolylineOutline::without_sharp_hollows(const std::vector<double>& radii) const {
   constexpr double beyond = 1e-3;  // of the line that ends in a hollow
   const std::vector<Vec2> all = points();
   std::vector<std::size_t> cuts;
   for (const Corner& corner : corners())
-    if (corner.is_hollow()) cuts.push_back(corner.point);
-  if (cuts.size() < (closed ? 2U : 1U)) return {*this};
+    if (corner.is_hollow() && radii[corner.point] == 0.0) cuts.push_back(corner.point);
+  if (cuts.size() < (closed ? 2U : 1U)) return {{*this, radii}};
   const std::size_t count = all.size();
   if (closed) {
     cuts.push_back(cuts.front() + count);
@@ -82,19 +91,25 @@ std::vector<PolylineOutline> PolylineOutline::without_hollows() const {
     cuts.insert(cuts.begin(), 0);
     cuts.push_back(count - 1);
   }
-  std::vector<PolylineOutline> parts;
+  std::vector<Part> parts;
   for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
     std::vector<Vec2> line;
-    for (std::size_t i = cuts[c]; i <= cuts[c + 1]; ++i) line.push_back(all[i % count]);
+    Part& part = parts.emplace_back();
+    for (std::size_t i = cuts[c]; i <= cuts[c + 1]; ++i) {
+      line.push_back(all[i % count]);
+      part.radii.push_back(radii[i % count]);
+    }
     const auto lengthen = [&](Vec2& end, const Vec2& inner) { end += beyond * (end - inner); };
     const Vec2 second = line[1], last_but_one = line[line.size() - 2];
     if (closed || c > 0) lengthen(line.front(), second);
     if (closed || c + 2 < cuts.size()) lengthen(line.back(), last_but_one);
-    if (runs_the_other_way(*this)) std::reverse(line.begin(), line.end());
-    PolylineOutline& part = parts.emplace_back();
+    if (runs_the_other_way(*this)) {
+      std::reverse(line.begin(), line.end());
+      std::reverse(part.radii.begin(), part.radii.end());
+    }
     for (const Vec2& point : line) {
-      part.x.push_back(point.x());
-      part.z.push_back(point.y());
+      part.outline.x.push_back(point.x());
+      part.outline.z.push_back(point.y());
     }
   }
   return parts;

@@ -99,14 +99,20 @@ void check_corners(Keys& keys, const Wall& wall, const PolylineOutline& outline)
   constexpr double turned_back = pi - 1e-6;  // [rad]
   using Corner = PolylineOutline::Corner;
   const std::vector<Corner> corners = outline.corners();
-  const double radius = wall.corner_radius;
-  const auto taken = [&](const Corner& corner) { return radius * std::tan(0.5 * std::abs(corner.turn)); };
+  if (!wall.corner_radii.empty() && wall.corner_radii.size() != corners.size())
+    return keys.report("corner_radius",
+                       "has " + std::to_string(wall.corner_radii.size()) + " radii, and the outline has " +
+                           std::to_string(corners.size()) + " corners",
+                       outline.closed ? "give one for each point" : "give one for each point between the ends");
+  const std::vector<double> radii = wall.radii();
+  const auto taken = [&](const Corner& corner) { return radii[corner.point] * std::tan(0.5 * std::abs(corner.turn)); };
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner& corner = corners[i];
     const std::string where = "the corner at " + text_of_point(outline.points()[corner.point]);
     if (std::abs(corner.turn) > turned_back)
       return keys.report("outline", where + " turns back on itself", "leave a width between the lines");
-    if (radius == 0.0 && corner.is_hollow() && outline.without_hollows().size() == 1)
+    const double radius = radii[corner.point];
+    if (radius == 0.0 && corner.is_hollow() && outline.without_sharp_hollows(radii).size() == 1)
       return keys.report("outline",
                          where +
                              " is re-entrant and sharp, and no other one is: a contact in it closes on both lines, "
@@ -158,8 +164,13 @@ void outline_keys(Keys& keys, Wall& wall) {
   });
   const bool is_polyline = keys.lists() || (wall.outline && std::holds_alternative<PolylineOutline>(*wall.outline));
   if (!keys.applies(is_polyline, "corner_radius", "belongs to an outline of type polyline", "remove it")) return;
-  const bool right = keys.number(optional("corner_radius"), wall.corner_radius, unit::length, not_negative,
-                                 "radius of rounded corners of a polyline; 0: sharp");
+  const bool is_list = !keys.lists() && (keys.reads() ? keys.holds_array("corner_radius") : !wall.corner_radii.empty());
+  const bool right = is_list ? keys.numbers(optional("corner_radius"), wall.corner_radii, unit::length, "")
+                             : keys.number(optional("corner_radius"), wall.corner_radius, unit::length, not_negative,
+                                           "radius of rounded corners of a polyline, or an array with one for each "
+                                           "corner in turn; 0: sharp");
+  if (right && std::any_of(wall.corner_radii.begin(), wall.corner_radii.end(), [](double r) { return r < 0.0; }))
+    return keys.report("corner_radius", "must be at least 0", "give radii that are not negative");
   if (!right && keys.has("corner_radius")) return;
   if (!keys.reads()) return;
   const auto& outline = std::get<PolylineOutline>(*wall.outline);

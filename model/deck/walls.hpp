@@ -90,7 +90,7 @@ struct OutlinePoints {
   bool operator==(const OutlinePoints&) const = default;
 };
 
-/// Straight between the points; Wall::corner_radius rounds the corners.
+/// Straight between the points; Wall::radii() round the corners.
 struct PolylineOutline : OutlinePoints {
   /// A corner: which of the points, how much the outline turns there towards the body [rad], and the lengths of the
   /// lines before and behind.
@@ -103,9 +103,17 @@ struct PolylineOutline : OutlinePoints {
   };
   std::vector<Corner> corners() const;
 
-  /// The outline in parts without hollow corners, which reach a little beyond these: what is in such a corner touches
-  /// two of them. Itself where it has none, or is closed and has one alone, so that no parts are to be told apart.
-  std::vector<PolylineOutline> without_hollows() const;
+  struct Part;
+  /// The outline in parts without hollow corners that are sharp, which reach a little beyond these: what is in such a
+  /// corner touches two of them. Itself where it has none, or is closed and has one alone, so that no parts are to be
+  /// told apart. `radii`: at each point.
+  std::vector<Part> without_sharp_hollows(const std::vector<double>& radii) const;
+};
+
+/// Stores a part of a polyline and the radii at its points.
+struct PolylineOutline::Part {
+  PolylineOutline outline{};
+  std::vector<double> radii{};
 };
 
 /// C² interpolating cubic by chord length.
@@ -130,10 +138,14 @@ struct Wall {
   ContactSurface contact_surface = ContactSurface::face;
   std::vector<std::string> members{};  ///< empty: every member
   std::variant<FlatProfile, LineProfile, CircleProfile, ParabolaProfile, SplineProfile> profile{};
-  std::optional<Outline> outline{};  ///< instead of side and profile
-  double corner_radius = 0.0;        ///< of a polyline [length]
-  double interference = 0.0;         ///< so far it begins moved back from the structure [length]
+  std::optional<Outline> outline{};    ///< instead of side and profile
+  double corner_radius = 0.0;          ///< of all corners of a polyline [length]
+  std::vector<double> corner_radii{};  ///< of each corner in turn [length]; empty: corner_radius
+  double interference = 0.0;           ///< so far it begins moved back from the structure [length]
   std::optional<WallMotion> motion{};
+
+  /// Of a polyline: the radius at each of its points, 0 at the ends of an open one.
+  std::vector<double> radii() const;
 
   bool operator==(const Wall&) const = default;
 };

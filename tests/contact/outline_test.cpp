@@ -129,6 +129,22 @@ TEST(Outline, CornersPointToTheBodyOrAreRounded) {
   EXPECT_FALSE(rounded->foot({-0.9, -0.5}).beyond);
 }
 
+// A square of 4 whose corners are rounded by arcs of their own, about centres their radius from both sides.
+TEST(Outline, HasARadiusOfItsOwnAtEachCorner) {
+  const std::vector<Vec2> square{{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}, {0.0, 4.0}};
+  const std::vector<double> radii{0.1, 0.2, 0.3, 0.4};
+  for (const Keep keep : {Keep::outside, Keep::inside}) {
+    const auto box = closed_polyline_outline(square, radii, keep);
+    for (std::size_t i = 0; i < square.size(); ++i) {
+      const Vec2 outwards = (square[i] - Vec2(2.0, 2.0)) / 2.0, centre = square[i] - radii[i] * outwards;
+      const double far = keep == Keep::outside ? 1.5 : 0.05;
+      const double gap = far - radii[i];
+      EXPECT_NEAR(box->foot(centre + far * outwards.normalized()).distance, keep == Keep::outside ? gap : -gap, 1e-14);
+    }
+    if (keep == Keep::inside) EXPECT_NEAR(box->sharpest_hollow(), 10.0, 1e-12);
+  }
+}
+
 // Through the corners of a regular polygon the closed curve looks the same from all of them.
 TEST(Outline, AClosedCurveHasNoSeam) {
   constexpr int corners = 7;

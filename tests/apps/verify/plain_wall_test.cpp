@@ -68,23 +68,29 @@ TEST(PlainWall, HasTheGapsOfTheOutlinesThatAreTraced) {
     of.keep = keep;
     return deck::Outline(of);
   };
-  std::vector<std::pair<deck::Outline, double>> outlines{
-      {deck::HalfPlaneOutline{{0.1, -0.2}, {-0.3, 0.8}}, 0.0},
-      {points(deck::PolylineOutline{}, {-1.5, 0.1, 1.4}, {-0.6, 0.2, -0.5}, false, Keep::outside), 0.0},
-      {points(deck::PolylineOutline{}, x, z, false, Keep::outside), 0.1},
-      {points(deck::CurveOutline{}, x, z, false, Keep::outside), 0.0},
-      {points(deck::CurveOutline{}, {-1.5, 1.4}, {-0.6, 0.2}, false, Keep::outside), 0.0}};
+  std::vector<std::pair<deck::Outline, std::vector<double>>> outlines{
+      {deck::HalfPlaneOutline{{0.1, -0.2}, {-0.3, 0.8}}, {0.0}},
+      {points(deck::PolylineOutline{}, {-1.5, 0.1, 1.4}, {-0.6, 0.2, -0.5}, false, Keep::outside), {0.0}},
+      {points(deck::PolylineOutline{}, x, z, false, Keep::outside), {0.1}},
+      {points(deck::CurveOutline{}, x, z, false, Keep::outside), {0.0}},
+      {points(deck::CurveOutline{}, {-1.5, 1.4}, {-0.6, 0.2}, false, Keep::outside), {0.0}}};
   for (const Keep keep : {Keep::outside, Keep::inside}) {
-    outlines.push_back({deck::CircleOutline{{0.1, 0.2}, 0.9, keep}, 0.0});
-    outlines.push_back({deck::EllipseOutline{{0.1, 0.2}, {0.5, 1.1}, 0.4, keep}, 0.0});
-    outlines.push_back({points(deck::PolylineOutline{}, x, z, true, keep), 0.15});
-    outlines.push_back({points(deck::CurveOutline{}, x, z, true, keep), 0.0});
+    outlines.push_back({deck::CircleOutline{{0.1, 0.2}, 0.9, keep}, {0.0}});
+    outlines.push_back({deck::EllipseOutline{{0.1, 0.2}, {0.5, 1.1}, 0.4, keep}, {0.0}});
+    outlines.push_back({points(deck::PolylineOutline{}, x, z, true, keep), {0.15}});
+    outlines.push_back({points(deck::PolylineOutline{}, x, z, true, keep), {0.0, 0.15, 0.05, 0.2, 0.1}});
+    outlines.push_back({points(deck::CurveOutline{}, x, z, true, keep), {0.0}});
   }
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> anywhere(-2.0, 2.0);
-  for (const auto& [outline, corner_radius] : outlines) {
+  for (const auto& [outline, radii] : outlines) {
     const deck::WallMotion motion{.x = 0.3, .z = -0.2, .rotation = 0.4, .about = {.x = 0.1, .z = 0.5}};
-    const deck::Wall wall{.name = "wall", .outline = outline, .corner_radius = corner_radius, .motion = motion};
+    const bool is_list = radii.size() > 1;
+    const deck::Wall wall{.name = "wall",
+                          .outline = outline,
+                          .corner_radius = is_list ? 0.0 : radii.front(),
+                          .corner_radii = is_list ? radii : std::vector<double>{},
+                          .motion = motion};
     const PlainWall at_rest(wall);
     const auto traced = obstacle_of(wall);
     for (const double lambda : {0.0, 0.3})
