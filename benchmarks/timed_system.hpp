@@ -104,41 +104,20 @@ class TimedSystem final : public System {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.transitions(state, forward, bound, tolerance);
   }
-  bool admissible(const State& state, double margin) const override {
+  StepVerdict check(const CheckedStep& step) const override {
     const ScopedTimer timer(times_.side_conditions);
-    return inner_.admissible(state, margin);
+    return inner_.check(step);
   }
-  std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State& to,
-                                                  double margin) const override {
+  std::optional<std::string> penetrated_place(const State& state, double margin) const override {
     const ScopedTimer timer(times_.side_conditions);
-    return inner_.with_inserted_contact(from, forward, to, margin);
+    return inner_.penetrated_place(state, margin);
   }
   std::string watched_place(const State& state, Index j) const override { return inner_.watched_place(state, j); }
-  std::string most_inadmissible(const State& state, double margin) const override {
-    return inner_.most_inadmissible(state, margin);
-  }
-  std::optional<Transition> with_mesh_for_landing(const State& from, const Direction& forward, const State& to,
-                                                  Index guard) const override {
-    const ScopedTimer timer(times_.side_conditions);
-    return inner_.with_mesh_for_landing(from, forward, to, guard);
-  }
   Index separate_contacts(const ActiveSet& active_set) const override { return inner_.separate_contacts(active_set); }
-  bool passes_through(const State& from, const State& to) const override {
-    const ScopedTimer timer(times_.side_conditions);
-    return inner_.passes_through(from, to);
-  }
   bool may_have_kink(const State& from, const State& to) const override { return inner_.may_have_kink(from, to); }
-  bool comes_behind_an_end(const State& from, const State& to) const override {
-    const ScopedTimer timer(times_.side_conditions);
-    return inner_.comes_behind_an_end(from, to);
-  }
   ActiveSet canonical_active_set(const State& state) const override {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.canonical_active_set(state);
-  }
-  std::optional<std::string> invalid_place(const State& state) const override {
-    const ScopedTimer timer(times_.side_conditions);
-    return inner_.invalid_place(state);
   }
 
  private:

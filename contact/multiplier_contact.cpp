@@ -233,10 +233,13 @@ Vector MultiplierContact::transfer(const Vector& x, const ActiveSet& from, const
   return moved;
 }
 
-std::optional<std::string> MultiplierContact::invalid_place(const State& state) const {
+StepVerdict MultiplierContact::check(const CheckedStep& step) const {
+  using Fault = StepVerdict::Fault;
+  if (step.located) return {.fault = passes_through(step.from, step.to) ? Fault::wall_crossed : Fault::none};
   for (std::size_t j = 0; j < candidates_.size(); ++j)
-    if (state.active_set[j] && !candidates_[j].faces_wall(state)) return words_of(candidates_[j].label());
-  return std::nullopt;
+    if (step.to.active_set[j] && !candidates_[j].faces_wall(step.to))
+      return {.fault = Fault::wall_left, .place = words_of(candidates_[j].label())};
+  return {.fault = comes_behind_an_end(step.from, step.to) ? Fault::behind_end : Fault::none};
 }
 
 bool MultiplierContact::passes_through(const State& from, const State& to) const {

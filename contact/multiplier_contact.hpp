@@ -64,10 +64,8 @@ class MultiplierContact final : public System, public ContactQuery {
   std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }
   Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override;
-  std::optional<std::string> invalid_place(const State& state) const override;
-  bool passes_through(const State& from, const State& to) const override;
+  StepVerdict check(const CheckedStep& step) const override;
   bool may_have_kink(const State& from, const State& to) const override;
-  bool comes_behind_an_end(const State& from, const State& to) const override;
 
   const Candidate& candidate(Index j) const { return candidates_[static_cast<std::size_t>(j)]; }
   const ContactScales& scales() const { return scales_; }
@@ -93,6 +91,8 @@ class MultiplierContact final : public System, public ContactQuery {
   double open_guard(Index j, const State& state) const;
   ContactPoint told(const State& state, std::size_t j, double force) const;
   void lay_out(const State& state, Linearization& out) const;
+  bool passes_through(const State& from, const State& to) const;
+  bool comes_behind_an_end(const State& from, const State& to) const;
 
   const Equations& inner_;
   std::vector<Candidate> candidates_;

@@ -212,16 +212,6 @@ bool SlidingContact::leaves_stability_open(const ActiveSet& active_set) const {
   return !sliding_layout(active_set).neutral_spans().empty();
 }
 
-std::optional<std::string> SlidingContact::invalid_place(const State& state) const {
-  const SlidingState at(state);
-  for (std::size_t j = 0; j < at.contacts(); ++j) {
-    const sliding::Touch touch = sliding::touch_of_contact(*setting_, at.layout, j);
-    if (at.is_closed(j) && !std::isfinite(sliding::face_gap(*setting_, touch, at)))
-      return watched_place(state, static_cast<Index>(j));
-  }
-  return std::nullopt;
-}
-
 // --- changing unknowns ----------------------------------------------------------------------------------------------
 
 std::vector<Transition> SlidingContact::transitions(const State& state, const Direction& forward, Index bound,
@@ -231,29 +221,46 @@ std::vector<Transition> SlidingContact::transitions(const State& state, const Di
   return at_hand.transitions(*setting_, at, {.forward = forward, .tolerance = tolerance, .at_hand = &at_hand});
 }
 
-bool SlidingContact::admissible(const State& state, double margin) const {
-  return sliding::unwatched_gaps(*setting_, SlidingState(state), margin).empty();
+// Whether a closed contact faces its wall no more.
+StepVerdict SlidingContact::check_converged(const State& from, const State& to) const {
+  using Fault = StepVerdict::Fault;
+  const SlidingState at(to);
+  for (std::size_t j = 0; j < at.contacts(); ++j) {
+    const sliding::Touch touch = sliding::touch_of_contact(*setting_, at.layout, j);
+    if (at.is_closed(j) && !std::isfinite(sliding::face_gap(*setting_, touch, at)))
+      return {.fault = Fault::wall_left, .place = watched_place(to, static_cast<Index>(j))};
+  }
+  if (sliding::comes_behind_an_end(*setting_, SlidingState(from), at)) return {.fault = Fault::behind_end};
+  return {};
 }
 
-std::string SlidingContact::most_inadmissible(const State& state, double margin) const {
+StepVerdict SlidingContact::check(const CheckedStep& step) const {
+  if (!step.located) return check_converged(step.from, step.to);
+  const SlidingState from(step.from), to(step.to);
+  const CheckedStep::LocatedEnd& end = *step.located;
+  if (sliding::passes_through(*setting_, from, to)) return {.fault = StepVerdict::Fault::wall_crossed};
+  StepVerdict verdict;
+  const auto restart_with = [&](std::optional<Transition> layout) {
+    if (layout) verdict.restarts.push_back(std::move(*layout));
+  };
+  if (!sliding::unwatched_gaps(*setting_, to, end.gap_seen).empty()) {
+    if (end.from != nullptr) restart_with(sliding::with_inserted_contact(*setting_, from, *end.from, to, end.gap_seen));
+    if (auto place = penetrated_place(step.to, -end.penetration)) {
+      verdict.fault = StepVerdict::Fault::penetration;
+      verdict.place = std::move(*place);
+      return verdict;
+    }
+  }
+  if (end.guard && end.from != nullptr)
+    restart_with(sliding::with_mesh_for_touch(*setting_, from, *end.from, to, *end.guard));
+  return verdict;
+}
+
+std::optional<std::string> SlidingContact::penetrated_place(const State& state, double margin) const {
   const auto gaps = sliding::unwatched_gaps(*setting_, SlidingState(state), margin);
-  if (gaps.empty()) return {};
+  if (gaps.empty()) return std::nullopt;
   const auto [member, fraction] = setting_->body.label(gaps.front().at);
   return words_of({.wall = setting_->obstacles[gaps.front().obstacle].name, .member = member, .fraction = fraction});
-}
-
-std::optional<Transition> SlidingContact::with_inserted_contact(const State& from, const Direction& forward,
-                                                                const State& to, double margin) const {
-  return sliding::with_inserted_contact(*setting_, SlidingState(from), forward, SlidingState(to), margin);
-}
-
-std::optional<Transition> SlidingContact::with_mesh_for_landing(const State& from, const Direction& forward,
-                                                                const State& to, Index guard) const {
-  return sliding::with_mesh_for_touch(*setting_, SlidingState(from), forward, SlidingState(to), guard);
-}
-
-bool SlidingContact::passes_through(const State& from, const State& to) const {
-  return sliding::passes_through(*setting_, SlidingState(from), SlidingState(to));
 }
 
 // Each closed point, but those at the end of a zone that an earlier one begins; each zone from end to end of a strand;
@@ -315,10 +322,6 @@ bool SlidingContact::may_have_kink(const State& from, const State& to) const {
     if (curvature_jumps(curvature(touch, before), curvature(touch, behind))) return true;
   }
   return false;
-}
-
-bool SlidingContact::comes_behind_an_end(const State& from, const State& to) const {
-  return sliding::comes_behind_an_end(*setting_, SlidingState(from), SlidingState(to));
 }
 
 ActiveSet SlidingContact::canonical_active_set(const State& state) const {

@@ -58,19 +58,12 @@ class SlidingContact final : public System, public ContactQuery {
   double multiplier_scale() const override { return scales().force; }
   Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override;
   bool leaves_stability_open(const ActiveSet& active_set) const override;
-  std::optional<std::string> invalid_place(const State& state) const override;
 
   std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,
                                       double tolerance) const override;
-  bool admissible(const State& state, double margin) const override;
-  std::string most_inadmissible(const State& state, double margin) const override;
-  std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State& to,
-                                                  double margin) const override;
-  std::optional<Transition> with_mesh_for_landing(const State& from, const Direction& forward, const State& to,
-                                                  Index guard) const override;
-  bool passes_through(const State& from, const State& to) const override;
+  StepVerdict check(const CheckedStep& step) const override;
+  std::optional<std::string> penetrated_place(const State& state, double margin) const override;
   bool may_have_kink(const State& from, const State& to) const override;
-  bool comes_behind_an_end(const State& from, const State& to) const override;
   Index separate_contacts(const ActiveSet& active_set) const override;
   ActiveSet canonical_active_set(const State& state) const override;
 
@@ -149,6 +142,8 @@ class SlidingContact final : public System, public ContactQuery {
   const std::vector<SlidingObstacle>& obstacles() const;
 
  private:
+  StepVerdict check_converged(const State& from, const State& to) const;
+
   std::unique_ptr<const SlidingSetting> setting_;
   ActiveSet open_;
 };

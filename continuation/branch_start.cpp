@@ -100,7 +100,7 @@ std::optional<PathPoint> point_just_behind(TraceTools& tools, const Metric& metr
   if (!result.converged() || metric.distance(result.state, start.state) > 2.0 * s) return std::nullopt;
   PathPoint at = path_point(tools.system, metric, std::move(result), forward);
   const bool is_outside = at.guards.size() == 0 || at.guards.minCoeff() >= -tools.options.guard_tolerance;
-  if (!is_outside || !tools.system.admissible(at.state, -penetration_tolerance)) return std::nullopt;
+  if (!is_outside || tools.system.penetrated_place(at.state, -penetration_tolerance)) return std::nullopt;
   decide_count(tools, at);
   return at;
 }

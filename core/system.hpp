@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/transition.hpp"
+#include "core/step_verdict.hpp"
 #include "core/unilateral_system.hpp"
 
 namespace arcwall {
@@ -20,9 +20,8 @@ namespace arcwall {
 /// located as events. Another layout follows beyond each of them.
 ///
 /// A system with one layout overrides nothing. Others override transitions and guard_count, and if needed:
-/// - admissible and with_inserted_contact, if contacts can arise between those of an active set;
-/// - with_mesh_for_landing, if contact positions determine the mesh;
-/// - passes_through, if obstacles have several sides; canonical_active_set, if two layouts share equilibria.
+/// - penetrated_place, if contacts can arise between those of an active set;
+/// - check, to reject or repeat steps for what no guard sees; canonical_active_set, if two layouts share equilibria.
 ///
 /// The first point with a new layout is an equilibrium with all guards ≥ 0. It equals the last point with the old
 /// layout up to discretisation.
@@ -36,38 +35,16 @@ class System : public UnilateralSystem {
     return {};
   }
 
-  /// Returns false if the structure penetrates an obstacle between the contacts by more than `margin` [scale of
-  /// guards].
-  virtual bool admissible(const State&, double /*margin*/) const { return true; }
+  /// Returns the verdict on a step: what no guard sees.
+  virtual StepVerdict check(const CheckedStep&) const { return {}; }
 
-  /// Returns the location of the largest such penetration, `floor at beam:0.4`; empty if there is none.
-  virtual std::string most_inadmissible(const State&, double /*margin*/) const { return {}; }
-
-  /// Returns the transition (`remeshed`) at the regular point `from` to a layout with guards for the penetration at
-  /// `to`, the end of a step. Empty if there is no such layout. Called if admissible(to, margin) is false.
-  virtual std::optional<Transition> with_inserted_contact(const State& /*from*/, const Direction& /*forward*/,
-                                                          const State& /*to*/, double /*margin*/) const {
-    return std::nullopt;
-  }
-
-  /// Returns the transition (`remeshed`) at the regular point `from` to a mesh that fits the guard located at `to`, the
-  /// end of a step. Empty if the mesh of `from` fits it.
-  virtual std::optional<Transition> with_mesh_for_landing(const State& /*from*/, const Direction& /*forward*/,
-                                                          const State& /*to*/, Index /*guard*/) const {
-    return std::nullopt;
-  }
-
-  /// Returns true if the structure would cross an obstacle between two states: it is inside or on another side at `to`,
-  /// the located end of a step.
-  virtual bool passes_through(const State& /*from*/, const State& /*to*/) const { return false; }
+  /// Returns the location of the smallest gap below `margin` [scale of guards] between the contacts; empty if there is
+  /// none. The location may have no name.
+  virtual std::optional<std::string> penetrated_place(const State&, double /*margin*/) const { return std::nullopt; }
 
   /// Returns true if the path between two states with one active set may have a kink: a closed contact passes a jump of
   /// the obstacle's curvature, for example the begin of a rounded corner.
   virtual bool may_have_kink(const State& /*from*/, const State& /*to*/) const { return false; }
-
-  /// Returns true if the structure enters an obstacle from beyond its end, where the obstacle has no contact surface:
-  /// for example an upper circular arc from below.
-  virtual bool comes_behind_an_end(const State& /*from*/, const State& /*to*/) const { return false; }
 
   /// Returns the number of separate closed contacts; those of one contact zone count as one.
   virtual Index separate_contacts(const ActiveSet& active_set) const {

@@ -79,10 +79,6 @@ class UnilateralSystem : public Equations {
   /// then count the other directions.
   virtual bool leaves_stability_open(const ActiveSet&) const { return false; }
 
-  /// Returns, for messages, the location where a solution is invalid: a closed contact beyond the end of its wall.
-  /// Empty if the state is valid.
-  virtual std::optional<std::string> invalid_place(const State&) const { return std::nullopt; }
-
   /// Returns the same state with another active set of the same layout.
   State with_active_set(const State& state, const ActiveSet& active_set) const {
     return {.x = transfer(state.x, state.active_set, active_set), .lambda = state.lambda, .active_set = active_set};

@@ -221,17 +221,16 @@ std::vector<Transition> KinkedSprings::transitions(const State& state, const Dir
   return found;
 }
 
-std::optional<Transition> KinkedSprings::with_inserted_contact(const State& from, const Direction& forward,
-                                                               const State& to, double margin) const {
-  auto found = inner_.with_inserted_contact(from, forward, to, margin);
-  return found ? std::optional(keeping_kinks(std::move(*found), from.active_set)) : std::nullopt;
-}
-
-std::optional<Transition> KinkedSprings::with_mesh_for_landing(const State& from, const Direction& forward,
-                                                               const State& to, Index guard) const {
-  if (kink(from.active_set, guard) != nullptr) return std::nullopt;
-  auto found = inner_.with_mesh_for_landing(from, forward, to, inner_number(from.active_set, guard));
-  return found ? std::optional(keeping_kinks(std::move(*found), from.active_set)) : std::nullopt;
+StepVerdict KinkedSprings::check(const CheckedStep& step) const {
+  CheckedStep inner = step;
+  if (inner.located && inner.located->guard) {
+    auto& guard = inner.located->guard;
+    guard = kink(step.from.active_set, *guard) != nullptr ? std::nullopt
+                                                          : std::optional(inner_number(step.from.active_set, *guard));
+  }
+  StepVerdict verdict = inner_.check(inner);
+  for (Transition& restart : verdict.restarts) restart = keeping_kinks(std::move(restart), step.from.active_set);
+  return verdict;
 }
 
 }  // namespace arcwall

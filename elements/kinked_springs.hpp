@@ -75,23 +75,14 @@ class KinkedSprings final : public System {
   bool leaves_stability_open(const ActiveSet& active_set) const override {
     return inner_.leaves_stability_open(active_set);
   }
-  std::optional<std::string> invalid_place(const State& state) const override { return inner_.invalid_place(state); }
 
   std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,
                                       double tolerance) const override;
-  bool admissible(const State& state, double margin) const override { return inner_.admissible(state, margin); }
-  std::string most_inadmissible(const State& state, double margin) const override {
-    return inner_.most_inadmissible(state, margin);
+  StepVerdict check(const CheckedStep& step) const override;
+  std::optional<std::string> penetrated_place(const State& state, double margin) const override {
+    return inner_.penetrated_place(state, margin);
   }
-  std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State& to,
-                                                  double margin) const override;
-  std::optional<Transition> with_mesh_for_landing(const State& from, const Direction& forward, const State& to,
-                                                  Index guard) const override;
-  bool passes_through(const State& from, const State& to) const override { return inner_.passes_through(from, to); }
   bool may_have_kink(const State& from, const State& to) const override { return inner_.may_have_kink(from, to); }
-  bool comes_behind_an_end(const State& from, const State& to) const override {
-    return inner_.comes_behind_an_end(from, to);
-  }
   ActiveSet canonical_active_set(const State& state) const override {
     return inner_.canonical_active_set(state).with_kinks_of(state.active_set);
   }

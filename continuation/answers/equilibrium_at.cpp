@@ -15,9 +15,10 @@ std::optional<CountedState> equilibrium_at_lambda(const System& system, const St
   const Direction along{.dx = Vector::Zero(guess.x.size()), .dlambda = 1.0};
   const CorrectorResult found =
       tools.corrector.correct_patiently(guess, ValueConstraint(lambda, guess.lambda), metric, along, distance);
-  if (!found.converged() || system.invalid_place(found.state)) return std::nullopt;
+  if (!found.converged()) return std::nullopt;
+  if (system.check({.from = found.state, .to = found.state}).fault != StepVerdict::Fault::none) return std::nullopt;
   if ((system.guards(found.state).array() < -slack).any()) return std::nullopt;
-  if (!system.admissible(found.state, -penetration_tolerance)) return std::nullopt;
+  if (system.penetrated_place(found.state, -penetration_tolerance)) return std::nullopt;
   return CountedState{.state = found.state, .count = tools.counter.count(found.state, found.negative)};
 }
 

@@ -289,11 +289,6 @@ GuardsAlong EventSystem::guards_along(const State& state, const Direction& direc
   return along;
 }
 
-std::optional<std::string> EventSystem::invalid_place(const State& state) const {
-  const auto member = at(state);
-  return member ? member->system->invalid_place(member->state) : std::nullopt;
-}
-
 std::string EventSystem::watched_place(const State& state, Index j) const {
   const auto member = at(state);
   return member ? member->system->watched_place(member->state, j) : std::string();
@@ -341,29 +336,13 @@ std::vector<Transition> EventSystem::transitions(const State& state, const Direc
   return {std::move(end)};
 }
 
-bool EventSystem::admissible(const State& state, double margin) const {
-  const auto member = at(state);
-  if (!member || !member->system->admissible(member->state, margin)) return false;
-  return border_fits(*member, layout_of(state.active_set).border, metric_of(*member), make_) >= least_fit;
+bool EventSystem::border_fits_at(const State& state, const SystemFamily::Member& member) const {
+  return border_fits(member, layout_of(state.active_set).border, metric_of(member), make_) >= least_fit;
 }
 
-std::string EventSystem::most_inadmissible(const State& state, double margin) const {
-  const auto member = at(state);
-  return member ? member->system->most_inadmissible(member->state, margin) : std::string();
-}
-
-std::optional<Transition> EventSystem::with_inserted_contact(const State& from, const Direction& forward,
-                                                             const State& to, double margin) const {
-  const Index n = layout_of(from.active_set).base_size;
+// The same point with a border made anew.
+std::optional<Transition> EventSystem::with_new_border(const State& from, const Direction& forward) const {
   const State start = in_common_terms(from);
-  const auto end = at(to), begin = family_.at(to.lambda, start);
-  if (!end || !begin) return std::nullopt;
-  if (!end->system->admissible(end->state, margin)) {
-    const auto inserted =
-        end->system->with_inserted_contact(begin->state, base_direction(forward, n), end->state, margin);
-    return inserted ? remeshed(from, *inserted, forward) : std::nullopt;
-  }
-  // The border alone is due: the same unknowns.
   const auto here = family_.at(from.lambda, start);
   if (!here) return std::nullopt;
   const auto before = along_path(from, *here);
@@ -375,28 +354,45 @@ std::optional<Transition> EventSystem::with_inserted_contact(const State& from, 
   return same;
 }
 
-std::optional<Transition> EventSystem::with_mesh_for_landing(const State& from, const Direction& forward,
-                                                             const State& to, Index guard) const {
-  const auto begin = family_.at(to.lambda, in_common_terms(from)), end = at(to);
-  if (!begin || !end) return std::nullopt;
-  const auto suited = end->system->with_mesh_for_landing(
-      begin->state, base_direction(forward, layout_of(from.active_set).base_size), end->state, guard);
-  return suited ? remeshed(from, *suited, forward) : std::nullopt;
+// That of the member at the step's end on the step from the event's state at its start; and a border that fits no more.
+StepVerdict EventSystem::check(const CheckedStep& step) const {
+  const auto end = at(step.to);
+  if (!end) return {.fault = step.located ? StepVerdict::Fault::penetration : StepVerdict::Fault::none};
+  const auto begin = family_.at(step.to.lambda, in_common_terms(step.from));
+  const State& start = begin ? begin->state : end->state;
+  if (!step.located) return end->system->check({.from = start, .to = end->state});
+  CheckedStep::LocatedEnd located = *step.located;
+  const Direction* const given = std::exchange(located.from, nullptr);
+  const Direction* const forward = begin ? given : nullptr;
+  Direction of_member;
+  if (forward != nullptr) {
+    of_member = base_direction(*forward, layout_of(step.from.active_set).base_size);
+    located.from = &of_member;
+  }
+  StepVerdict verdict = end->system->check({.from = start, .to = end->state, .located = located});
+  std::vector<Transition> restarts;
+  for (const Transition& layout : std::exchange(verdict.restarts, {}))
+    if (auto same_event = remeshed(step.from, layout, *forward)) restarts.push_back(std::move(*same_event));
+  if (verdict.fault == StepVerdict::Fault::none && !border_fits_at(step.to, *end)) {
+    verdict.fault = StepVerdict::Fault::penetration;
+    restarts.clear();
+    if (forward != nullptr && !end->system->penetrated_place(end->state, located.gap_seen))
+      if (auto same = with_new_border(step.from, *forward)) restarts.push_back(std::move(*same));
+  }
+  verdict.restarts = std::move(restarts);
+  return verdict;
+}
+
+std::optional<std::string> EventSystem::penetrated_place(const State& state, double margin) const {
+  const auto member = at(state);
+  if (!member) return std::string();
+  if (auto place = member->system->penetrated_place(member->state, margin)) return place;
+  return border_fits_at(state, *member) ? std::nullopt : std::optional<std::string>(std::string());
 }
 
 bool EventSystem::may_have_kink(const State& from, const State& to) const {
   const auto begin = family_.at(to.lambda, in_common_terms(from)), end = at(to);
   return begin && end && end->system->may_have_kink(begin->state, end->state);
-}
-
-bool EventSystem::passes_through(const State& from, const State& to) const {
-  const auto begin = family_.at(to.lambda, in_common_terms(from)), end = at(to);
-  return begin && end && end->system->passes_through(begin->state, end->state);
-}
-
-bool EventSystem::comes_behind_an_end(const State& from, const State& to) const {
-  const auto begin = family_.at(to.lambda, in_common_terms(from)), end = at(to);
-  return begin && end && end->system->comes_behind_an_end(begin->state, end->state);
 }
 
 }  // namespace arcwall

@@ -84,23 +84,19 @@ class EventSystem final : public System {
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
   GuardsAlong guards_along(const State& state, const Direction& direction) const override;
-  std::optional<std::string> invalid_place(const State& state) const override;
   std::string watched_place(const State& state, Index j) const override;
 
   std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,
                                       double tolerance) const override;
-  bool admissible(const State& state, double margin) const override;
-  std::string most_inadmissible(const State& state, double margin) const override;
-  std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State& to,
-                                                  double margin) const override;
-  std::optional<Transition> with_mesh_for_landing(const State& from, const Direction& forward, const State& to,
-                                                  Index guard) const override;
-  bool passes_through(const State& from, const State& to) const override;
+  StepVerdict check(const CheckedStep& step) const override;
+  std::optional<std::string> penetrated_place(const State& state, double margin) const override;
   bool may_have_kink(const State& from, const State& to) const override;
-  bool comes_behind_an_end(const State& from, const State& to) const override;
 
  private:
   class EventLayout;
+
+  bool border_fits_at(const State& state, const SystemFamily::Member& member) const;
+  std::optional<Transition> with_new_border(const State& from, const Direction& forward) const;
 
   static const EventLayout& layout_of(const ActiveSet& active_set);
   Index extra() const { return event_.criterion == Criterion::crossing ? 2 : 1; }

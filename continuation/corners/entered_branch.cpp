@@ -77,7 +77,7 @@ class SideOfCorner {
  private:
   // Whether nothing is violated but what is violated right behind the corner: the new part's own length.
   bool may_be_passed(const State& state) const {
-    if (!system_.admissible(state, -penetration_tolerance)) return false;
+    if (system_.penetrated_place(state, -penetration_tolerance)) return false;
     const Vector guards = system_.guards(state);
     return (guards.array() >= -guard_tolerance_ || guards_there_.array() < -guard_tolerance_).all();
   }

@@ -124,8 +124,9 @@ bool guards_hold(const TraceTools& tools, const State& state, const Direction& f
 // What is touched before that point where it has a length is found by the step to it.
 bool holds(const TraceTools& tools, const Transition& transition, const State& from, const State& state,
            const Direction& forward) {
-  if (!tools.system.admissible(state, -penetration_tolerance)) return false;
-  if (!begins_with_length(transition) && tools.system.passes_through(from, state)) return false;
+  const bool clear = begins_with_length(transition) ? !tools.system.penetrated_place(state, -penetration_tolerance)
+                                                    : is_clear(tools, from, state);
+  if (!clear) return false;
   return transition.change == Transition::Change::remeshed ||
          guards_hold(tools, state, forward, tools.system.guards(state));
 }
@@ -218,11 +219,12 @@ bool value_lies_behind_turn(const std::vector<TargetValue>& targets, const PathP
 }  // namespace
 
 bool is_clear(const TraceTools& tools, const State& from, const State& to) {
-  return tools.system.admissible(to, -penetration_tolerance) && !tools.system.passes_through(from, to);
+  return tools.system.check({.from = from, .to = to, .located = {{.penetration = penetration_tolerance}}}).fault ==
+         StepVerdict::Fault::none;
 }
 
 bool holds_at(const TraceTools& tools, const PathPoint& at) {
-  return tools.system.admissible(at.state, -penetration_tolerance) &&
+  return !tools.system.penetrated_place(at.state, -penetration_tolerance) &&
          guards_hold(tools, at.state, at.tangent, at.guards);
 }
 

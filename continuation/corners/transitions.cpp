@@ -194,14 +194,9 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
   }
 }
 
-namespace {
-
-// The start of a step on the active set of a transition from it.
-std::optional<Departure> departure_on(TraceTools& tools, const StepOrigin& origin,
-                                      const std::optional<Transition>& transition) {
+std::optional<Departure> departure_on(TraceTools& tools, const StepOrigin& origin, const Transition& transition) {
   const PathPoint& from = origin.point();
-  if (!transition) return std::nullopt;
-  auto point = enter(tools, *transition, from, origin.metric.lambda_scale());
+  auto point = enter(tools, transition, from, origin.metric.lambda_scale());
   if (!point) return std::nullopt;
   point->arc = from.arc;
   // The path goes on as was known: where it is singular, signs and counts at the start itself are any.
@@ -211,20 +206,6 @@ std::optional<Departure> departure_on(TraceTools& tools, const StepOrigin& origi
   finer.before.reset();
   finer.eigenvalues_before.resize(0);
   return finer;
-}
-
-}  // namespace
-
-std::optional<Departure> with_new_contact(TraceTools& tools, const StepOrigin& origin, const State& violated,
-                                          double margin) {
-  const PathPoint& from = origin.point();
-  return departure_on(tools, origin, tools.system.with_inserted_contact(from.state, from.tangent, violated, margin));
-}
-
-std::optional<Departure> with_mesh_for_landing(TraceTools& tools, const StepOrigin& origin, const State& end,
-                                               Index guard) {
-  const PathPoint& from = origin.point();
-  return departure_on(tools, origin, tools.system.with_mesh_for_landing(from.state, from.tangent, end, guard));
 }
 
 }  // namespace arcwall

@@ -49,8 +49,8 @@ Way way_to(const System& system, const State& from, const State& to, double guar
       return wall_ahead ? Way::ends_at_a_wall : Way::is_closed;
     }
   }
-  if (system.admissible(to, -penetration_tolerance)) return Way::is_free;
-  return system.admissible(from, distant) ? Way::ends_at_a_wall : Way::is_closed;
+  if (!system.penetrated_place(to, -penetration_tolerance)) return Way::is_free;
+  return !system.penetrated_place(from, distant) ? Way::ends_at_a_wall : Way::is_closed;
 }
 
 // Of two null vectors at a limit point the combination that is no motion along the path.

@@ -52,7 +52,7 @@ std::optional<PathPoint> point_beyond_bound(TraceTools& tools, const Metric& met
                                             const ValueBetween& value) {
   constexpr double entered = 1e-6;  // of a wall between contacts: farther beyond the bound the active set is another
   auto at = point_on_value(tools, metric, tools.options.target_values[value.which], near);
-  if (!at || !tools.system.admissible(at->state, -entered)) return std::nullopt;
+  if (!at || tools.system.penetrated_place(at->state, -entered)) return std::nullopt;
   at->arc += value.distance;
   return at;
 }

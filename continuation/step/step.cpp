@@ -34,6 +34,21 @@ StepOutcome outcome_of(CorrectorStatus failure) {
   return StepOutcome::accepted;
 }
 
+StepOutcome outcome_of(StepVerdict::Fault fault) {
+  switch (fault) {
+    case StepVerdict::Fault::none:
+      return StepOutcome::accepted;
+    case StepVerdict::Fault::wall_left:
+      return StepOutcome::obstructed;
+    case StepVerdict::Fault::behind_end:
+      return StepOutcome::behind_end;
+    case StepVerdict::Fault::wall_crossed:
+    case StepVerdict::Fault::penetration:
+      return StepOutcome::penetration;
+  }
+  return StepOutcome::accepted;
+}
+
 // In which a step's turn is measured. Where λ alone makes a step longer than `max_motion`, λ₀ is taken so great that
 // the structure's motion has an equal part in the tangent.
 Metric turning_metric(const StepOrigin& origin, double s, double max_motion) {
@@ -108,6 +123,14 @@ std::optional<StepOutcome> strayed(const System& system, const StepOrigin& origi
   return near ? std::nullopt : std::optional(StepOutcome::left_path);
 }
 
+// What vanishes with the guard that was landed on belongs to the change.
+CheckedStep::LocatedEnd located_end(const StepOrigin& origin, const StepEnd& end) {
+  CheckedStep::LocatedEnd located{.penetration = penetration_tolerance, .from = &origin.point().tangent};
+  if (end.landing) located.gap_seen = near_change;
+  if (end.landing) located.guard = end.landing->guard;
+  return located;
+}
+
 }  // namespace
 
 StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
@@ -125,9 +148,8 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   tried.attempt.residual = result.residual;
   tried.attempt.roots = result.roots;
   if (!result.converged()) return rejected(outcome_of(result.status), result.status);
-  if (auto where = tools.system.invalid_place(result.state))
-    return rejected(StepOutcome::obstructed, CorrectorStatus::converged, std::move(*where));
-  if (tools.system.comes_behind_an_end(from.state, result.state)) return rejected(StepOutcome::behind_end);
+  if (auto why = tools.system.check({.from = from.state, .to = result.state}); why.fault != StepVerdict::Fault::none)
+    return rejected(outcome_of(why.fault), CorrectorStatus::converged, std::move(why.place));
 
   StepEnd end{.point = path_point(tools.system, origin.metric, std::move(result), from.tangent)};
   const Metric metric = turning_metric(origin, s, tools.options.step.max);
@@ -137,25 +159,16 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   LandedStep landed = land_on_first_guard(tools, origin, std::move(end));
   if (!landed.end) return rejected(StepOutcome::event_not_located, landed.failure, std::move(landed.where));
   end = std::move(*landed.end);
-  const auto refined = [&](Departure finer) {
-    tried.attempt.outcome = StepOutcome::contact_inserted;
-    tried.result = Retry{.finer = std::move(finer)};
-    return std::move(tried);
-  };
-  if (tools.system.passes_through(from.state, end.point.state)) return rejected(StepOutcome::penetration);
-
-  // What vanishes with the guard that was landed on belongs to the change.
-  const double margin = end.landing ? near_change : -penetration_tolerance;
-  if (!tools.system.admissible(end.point.state, margin)) {
-    if (auto finer = with_new_contact(tools, origin, end.point.state, margin)) return refined(std::move(*finer));
-    if (!end.landing || !tools.system.admissible(end.point.state, -penetration_tolerance)) {
-      std::string where = tools.system.most_inadmissible(end.point.state, -penetration_tolerance);
-      return rejected(StepOutcome::penetration, CorrectorStatus::converged, std::move(where));
+  StepVerdict verdict =
+      tools.system.check({.from = from.state, .to = end.point.state, .located = located_end(origin, end)});
+  for (const Transition& layout : verdict.restarts)
+    if (auto finer = departure_on(tools, origin, layout)) {
+      tried.attempt.outcome = StepOutcome::contact_inserted;
+      tried.result = Retry{.finer = std::move(*finer)};
+      return tried;
     }
-  }
-  if (end.landing)
-    if (auto finer = with_mesh_for_landing(tools, origin, end.point.state, end.landing->guard))
-      return refined(std::move(*finer));
+  if (verdict.fault != StepVerdict::Fault::none)
+    return rejected(outcome_of(verdict.fault), CorrectorStatus::converged, std::move(verdict.place));
   decide_count(tools, end.point);
   // Eigenvalues that vanish behind the change have no sure sign there.
   if (end.landing && end.landing->singular) end.point.negative_eigenvalues.reset();

@@ -437,8 +437,9 @@ TEST(Tracer, AnEventOfAChosenKindEndsTheBranch) {
 TEST(Tracer, AWallThatEndsEndsTheBranch) {
   struct Ending final : test::LinearContactToy {
     Ending() : LinearContactToy(test::stopped_springs(2.0)) {}
-    std::optional<std::string> invalid_place(const State& s) const override {
-      return s.active_set[0] && s.lambda > 1.5 ? std::optional<std::string>("the post at 0.5") : std::nullopt;
+    StepVerdict check(const CheckedStep& step) const override {
+      if (step.located || !step.to.active_set[0] || step.to.lambda <= 1.5) return {};
+      return {.fault = StepVerdict::Fault::wall_left, .place = "the post at 0.5"};
     }
   };
   const Ending system;

@@ -17,6 +17,20 @@ struct NumberedLayout final : Layout {
   int number;
 };
 
+/// The verdict on a step of a system that inserts a contact, as a layout of this number, wherever it is penetrated.
+inline StepVerdict inserted_layout(const System& system, const CheckedStep& step, int number) {
+  if (!step.located || !system.penetrated_place(step.to, step.located->gap_seen)) return {};
+  StepVerdict verdict;
+  if (step.located->from != nullptr) {
+    State guess = step.from;
+    guess.active_set = ActiveSet(0, 0, std::make_shared<NumberedLayout>(number));
+    verdict.restarts.push_back(
+        {.change = Transition::Change::remeshed, .guess = std::move(guess), .forward = *step.located->from});
+  }
+  if (system.penetrated_place(step.to, -step.located->penetration)) verdict.fault = StepVerdict::Fault::penetration;
+  return verdict;
+}
+
 /// A system whose unknowns change behind validity bounds. Its active sets are told apart by the number of their layout.
 class LayoutToy : public System {
  public:
@@ -169,13 +183,10 @@ class RemeshedFoldToy final : public System {
     out.pattern_of = s.active_set;
   }
   double energy(const State& s) const override { return std::pow(off(s), 3) / 3.0 + s.lambda * s.x[0]; }
-  bool admissible(const State& s, double margin) const override { return is_new(s) || 0.03 - s.x[0] >= margin; }
-  std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State&,
-                                                  double) const override {
-    State guess = from;
-    guess.active_set = ActiveSet(0, 0, std::make_shared<NumberedLayout>(1));
-    return Transition{.change = Transition::Change::remeshed, .guess = std::move(guess), .forward = forward};
+  std::optional<std::string> penetrated_place(const State& s, double margin) const override {
+    return is_new(s) || 0.03 - s.x[0] >= margin ? std::nullopt : std::optional<std::string>(std::string());
   }
+  StepVerdict check(const CheckedStep& step) const override { return inserted_layout(*this, step, 1); }
 
   const double error;
 
@@ -199,13 +210,13 @@ class BlindToy final : public System {
     out.pattern_of = s.active_set;
   }
   double energy(const State& s) const override { return 0.5 * s.x[0] * s.x[0] - s.lambda * s.x[0]; }
-  bool admissible(const State& s, double margin) const override { return 1.0 - s.x[0] >= margin; }
-  std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State&,
-                                                  double) const override {
-    ++inserted;
-    State guess = from;
-    guess.active_set = ActiveSet(0, 0, std::make_shared<NumberedLayout>(inserted));
-    return Transition{.change = Transition::Change::remeshed, .guess = std::move(guess), .forward = forward};
+  std::optional<std::string> penetrated_place(const State& s, double margin) const override {
+    return 1.0 - s.x[0] >= margin ? std::nullopt : std::optional<std::string>(std::string());
+  }
+  StepVerdict check(const CheckedStep& step) const override {
+    const StepVerdict verdict = inserted_layout(*this, step, inserted + 1);
+    inserted += static_cast<int>(verdict.restarts.size());
+    return verdict;
   }
 };
 
