@@ -14,6 +14,7 @@
 #include "contact/sliding/pinches.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
+#include "contact/sliding/tolerances.hpp"
 #include "contact/sliding/touch.hpp"
 #include "contact/sliding/validity_bound.hpp"
 
@@ -53,14 +54,13 @@ bool is_watched(const SlidingSetting& setting, const SlidingState& at, std::size
 
 double guard_of_contact(const SlidingSetting& setting, const SlidingState& at, Index j) {
   // Of a contact that faces no wall, that lies on it without force, at a pinch, or where a bound watches the force.
-  constexpr double out_of_reach = 1.0;
   const auto contact = static_cast<std::size_t>(j);
-  if (at.layout.is_pinched(contact)) return out_of_reach;
+  if (at.layout.is_pinched(contact)) return sliding::no_guard;
   if (at.is_closed(contact))
-    return is_watched(setting, at, contact) ? out_of_reach : at.force(contact) / setting.scales.force;
-  if (sliding::lies_flat(setting, at.layout, contact)) return out_of_reach;
+    return is_watched(setting, at, contact) ? sliding::no_guard : at.force(contact) / setting.scales.force;
+  if (sliding::lies_flat(setting, at.layout, contact)) return sliding::no_guard;
   const double gap = sliding::face_gap(setting, sliding::touch_of_contact(setting, at.layout, contact), at);
-  return std::isfinite(gap) ? gap / setting.scales.length : out_of_reach;
+  return std::isfinite(gap) ? gap / setting.scales.length : sliding::no_guard;
 }
 
 double guard_of(const SlidingSetting& setting, const SlidingState& at, Index j) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contact/sliding/differences.hpp"
+#include "contact/sliding/tolerances.hpp"
 #include "core/unit_tangent.hpp"
 
 namespace arcwall::sliding {
@@ -275,13 +276,12 @@ double holding_pressure(const SlidingSetting& setting, const SlidingState& at, c
 
 // What acts along the body is linear in λ, and the same but for round-off of its direction where λ does not drive it.
 double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held) {
-  constexpr double round_off = 1e-12;
   HeldAxis less = laid_axis(setting, at, held), more = less;
   less.lambda -= 1.0;
   more.lambda += 1.0;
   const double rate = 0.5 * (straight_pressure(setting, more, 0.0) - straight_pressure(setting, less, 0.0));
   const double of_load = 0.5 * (load_on(setting, more, 0.0) - load_on(setting, less, 0.0)).norm();
-  return std::abs(rate) > round_off * of_load ? rate : 0.0;
+  return std::abs(rate) > zero_rate * of_load ? rate : 0.0;
 }
 
 double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
@@ -298,7 +298,6 @@ bool lies_by_itself(const SlidingSetting& setting, const SlidingState& at, std::
 }
 
 Vector border_rates(const SlidingSetting& setting, const SlidingState& at) {
-  constexpr double touching = 1e-9;  // a line is about to form, or has just vanished
   Vector rates = Vector::Zero(at.index.points);
   for (Index k = 0; k < rates.size(); ++k) {
     const auto point = static_cast<std::size_t>(k);
@@ -312,7 +311,7 @@ Vector border_rates(const SlidingSetting& setting, const SlidingState& at) {
     const Obstacle& surface = *setting.obstacles[touch.obstacle].surface;
     const double opening =
         sign_of(surface.side()) * travel(surface, face(touch.offset, axis), axis.angle, at.now.lambda) * rate;
-    if (opening * setting.scales.length > touching) rates[k] = -rate;
+    if (opening * setting.scales.length > touching_at_rest) rates[k] = -rate;
   }
   return rates;
 }

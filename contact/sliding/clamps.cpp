@@ -10,6 +10,7 @@
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
@@ -28,11 +29,10 @@ bool is_on(const SlidingSetting& setting, const SlidingState& at, const FreeEnd&
     const auto contact = setting.number_of_end({.strand = end.strand, .last = end.last}, end.obstacle);
     return contact && at.is_closed(at.layout.points().size() + *contact) && is_tangent_at_plane(setting, at, end);
   }
-  constexpr double touching = 1e-9;  // gap, scaled, and angle
   const Touch touch = touch_of_end(setting, at.layout, end);
-  if (!(std::abs(face_gap(setting, touch, at)) <= touching * setting.scales.length)) return false;
+  if (!(std::abs(face_gap(setting, touch, at)) <= touching_at_rest * setting.scales.length)) return false;
   if (setting.body.is_hinged(end.strand, end.last)) return setting.obstacles[end.obstacle].surface->knots().empty();
-  return std::abs(touch_gap(setting, touch, at).tilt.value) <= touching;
+  return std::abs(touch_gap(setting, touch, at).tilt.value) <= touching_at_rest;
 }
 
 // Pressed parts of one length from the clamps on.

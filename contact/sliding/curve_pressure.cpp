@@ -6,6 +6,7 @@
 
 #include "contact/sliding/differences.hpp"
 #include "contact/sliding/part_loads.hpp"
+#include "contact/sliding/tolerances.hpp"
 #include "contact/sliding/touch.hpp"
 #include "core/unit_tangent.hpp"
 
@@ -80,9 +81,6 @@ double pressure_on_curve(const SlidingSetting& setting, const HeldPlace& held, c
   return sign_of(obstacle.side()) * held.travel * (by_bending - curvature * force - load.dot(perp(t)));
 }
 
-// Of the length of the strand, of angles and of λ: walls have ends, and arcs between lines.
-constexpr double small = 1e-5;
-
 // How fast a place and what is there moves.
 struct HeldRate {
   Vec2 position;
@@ -95,7 +93,7 @@ double by_stretch(const SlidingSetting& setting, const HeldPlace& held, const Na
     there.stretch += d;
     return pressure_on_curve(setting, there, natural);
   };
-  return derivative_by_two(stretched, small);
+  return derivative_by_two(stretched, difference_step_on_wall);
 }
 
 // Along the direction in which a place moves. The stretch stands apart: slender bodies change theirs by so little that
@@ -103,8 +101,9 @@ double by_stretch(const SlidingSetting& setting, const HeldPlace& held, const Na
 double pressure_rate(const SlidingSetting& setting, const HeldPlace& held, const HeldRate& rate) {
   const double length = setting.body.length(held.touch.strand);
   const double of_stretch = by_stretch(setting, held, natural_curvature(setting.body, held)) * rate.stretch;
-  const double fastest = std::max({rate.position.norm() / (small * length), std::abs(rate.angle) / small,
-                                   std::abs(rate.s) / (small * length), std::abs(rate.lambda) / small});
+  const double fastest = std::max(
+      {rate.position.norm() / (difference_step_on_wall * length), std::abs(rate.angle) / difference_step_on_wall,
+       std::abs(rate.s) / (difference_step_on_wall * length), std::abs(rate.lambda) / difference_step_on_wall});
   if (fastest == 0.0) return of_stretch;
   const auto moved = [&](double d) {
     HeldPlace there = held;
@@ -137,12 +136,12 @@ Gradient pressure_gradient(const SlidingSetting& setting, const HeldPlace& held)
     };
     return derivative_by_two(moved, step);
   };
-  return {.node = {by(small * length, [](HeldPlace& there, double d) { there.position.x() += d; }),
-                   by(small * length, [](HeldPlace& there, double d) { there.position.y() += d; }),
-                   by(small, [](HeldPlace& there, double d) { there.angle += d; })},
+  return {.node = {by(difference_step_on_wall * length, [](HeldPlace& there, double d) { there.position.x() += d; }),
+                   by(difference_step_on_wall * length, [](HeldPlace& there, double d) { there.position.y() += d; }),
+                   by(difference_step_on_wall, [](HeldPlace& there, double d) { there.angle += d; })},
           .stretch = by_stretch(setting, held, natural),
-          .s = by(small * length, [](HeldPlace& there, double d) { there.s += d; }),
-          .lambda = by(small, [](HeldPlace& there, double d) { there.lambda += d; })};
+          .s = by(difference_step_on_wall * length, [](HeldPlace& there, double d) { there.s += d; }),
+          .lambda = by(difference_step_on_wall, [](HeldPlace& there, double d) { there.lambda += d; })};
 }
 
 HeldPlace held_place(const SlidingSetting& setting, const SlidingState& at, const Touch& touch, double s,

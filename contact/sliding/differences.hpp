@@ -1,8 +1,8 @@
 #pragma once
 
-namespace arcwall::sliding {
+#include "contact/sliding/tolerances.hpp"
 
-inline constexpr double difference_step = 1e-3;  // of what is varied, or of the length of the strand
+namespace arcwall::sliding {
 
 /// The derivative of a function of a change at no change, by central differences of fourth order.
 template <class Function>

@@ -10,6 +10,7 @@
 #include "contact/sliding/pinches.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
+#include "contact/sliding/tolerances.hpp"
 #include "contact/sliding/touch.hpp"
 
 namespace arcwall::sliding {
@@ -64,7 +65,6 @@ bool are_divided_alike(const LayoutEdit& one, const LayoutEdit& other) {
 // member, a load or a contact with another wall. What has been given up near a free or hinged end must not be inserted
 // there again, where another mesh has it a little farther away.
 bool is_unfit(const SlidingSetting& setting, const State& state, std::size_t point) {
-  constexpr double between_meshes = 1e-5;  // of the length scale
   const SlidingState at(state);
   return std::any_of(at.layout.bounds().begin(), at.layout.bounds().end(), [&](const auto& bound) {
     const auto* curvature = dynamic_cast<const CurvatureBound*>(bound.get());
@@ -125,12 +125,11 @@ namespace {
 
 // The points that wait for their first touch and touch together with one of them.
 std::vector<std::size_t> touched_with(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  constexpr double together = 1e-6;  // of the length scale
   std::vector<std::size_t> touched;
   for (std::size_t k = 0; k < at.layout.points().size(); ++k) {
     if (!at.layout.points()[k].waits()) continue;
     const double gap = face_gap(setting, touch_of_contact(setting, at.layout, k), at);
-    if (k == point || gap <= together * setting.scales.length) touched.push_back(k);
+    if (k == point || gap <= touching_on_path * setting.scales.length) touched.push_back(k);
   }
   return touched;
 }

@@ -9,6 +9,7 @@
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/curved_surface.hpp"
 #include "contact/sliding/pinches.hpp"
+#include "contact/sliding/tolerances.hpp"
 #include "contact/sliding/touch.hpp"
 #include "core/lanes.hpp"
 
@@ -265,12 +266,12 @@ double least_beside_end(const SlidingSetting& setting, const SlidingState& at, c
 // As an end that touches lies down, all gaps beside it come to nothing. That is watched by a guard of its own, so that
 // there the body must be inside.
 std::vector<LeastGap> unwatched_gaps(const SlidingSetting& setting, const SlidingState& at, double margin) {
-  constexpr double inside = -1e-11;  // in the scale of guards
   std::vector<LeastGap> found;
   for_each_least_gap(setting, at, Which::unwatched, [&](const LeastGap& least) {
     if (least.gap >= margin * setting.scales.length) return;
     const auto end = touching_end_beside(setting, at, least);
-    if (end && least_beside_end(setting, at, *end) >= std::min(margin, inside) * setting.scales.length) return;
+    if (end && least_beside_end(setting, at, *end) >= std::min(margin, penetrates_beside_end) * setting.scales.length)
+      return;
     found.push_back(least);
   });
   std::stable_sort(found.begin(), found.end(), [](const LeastGap& a, const LeastGap& b) { return a.gap < b.gap; });
@@ -332,7 +333,7 @@ bool goes_round_core(const SeenStrand& before, const SeenStrand& behind, double 
 }  // namespace
 
 bool passes_through(const SlidingSetting& setting, const SlidingState& from, const SlidingState& to) {
-  const double touching = 1e-6 * setting.scales.length;
+  const double touching = touching_on_path * setting.scales.length;
   for (Index strand = 0; strand < setting.body.strands(); ++strand)
     for (const SlidingObstacle& obstacle : setting.obstacles) {
       const Obstacle& surface = *obstacle.surface;
@@ -384,7 +385,7 @@ bool is_near_an_end(const StrandBesideEnds& beside, const Vec2& first, const Vec
 // Inside an element that is partly beyond the end a bend of the body may come in first, between its nodes.
 bool comes_behind_an_end(const SlidingSetting& setting, const SlidingState& from, const SlidingState& to) {
   constexpr int looks = 16;
-  const double touching = 1e-6 * setting.scales.length, lambda = to.now.lambda;
+  const double touching = touching_on_path * setting.scales.length, lambda = to.now.lambda;
   const auto comes = [&](const StrandBesideEnds& beside, Index element, double fraction) {
     const AxisPlace here = to.mesh.inside(beside.strand, element, fraction, to.now);
     if (!(beside.gap(here, lambda) < -touching)) return false;

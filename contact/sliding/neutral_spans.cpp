@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/sliding/bending.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
@@ -11,8 +12,6 @@ namespace {
 
 using NeutralSpan = SlidingContactLayout::NeutralSpan;
 using Span = SlidingContactLayout::Span;
-
-constexpr double parallel = 1e-9;  // [rad]
 
 std::size_t obstacle_at(const SlidingState& at, Index point) {
   return at.layout.points()[static_cast<std::size_t>(point)].obstacle;
@@ -40,7 +39,7 @@ NodeFunction half_difference(const NodeFunction& f, const NodeFunction& g) {
 
 // Whether the axis at a node is parallel to the obstacle of a touch. One is straight wherever this is asked.
 bool is_parallel(const SlidingState& at, const Touch& touch, double angle) {
-  return std::abs(angle - touch.axis(at).angle) <= parallel;
+  return std::abs(angle - touch.axis(at).angle) <= exactly_parallel;
 }
 
 double element_length(const SlidingState& at, Index strand, Index element) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/sliding/tolerances.hpp"
 #include "contact/sliding/touch.hpp"
 
 namespace arcwall::sliding {
@@ -33,7 +34,6 @@ struct AlongNormal {
 
 AlongNormal along_normal(const SlidingSetting& setting, std::size_t obstacle, Index strand, const AxisPlace& axis,
                          double lambda, const SlidingBody::PointForce& load) {
-  constexpr double step = 1e-5;  // of the length scale, and of λ
   const auto slope = [&](const Vec2& by_place, double by_angle, double by_lambda, double size) {
     const auto moved = [&](double way) {
       const AxisPlace there{.position = axis.position + way * by_place, .angle = axis.angle + way * by_angle};
@@ -41,12 +41,12 @@ AlongNormal along_normal(const SlidingSetting& setting, std::size_t obstacle, In
     };
     return load.value.dot(moved(1.0) - moved(-1.0)) / (2.0 * size);
   };
-  const double length = step * setting.scales.length;
+  const double length = difference_step_on_wall * setting.scales.length;
   const Vec2 n = normal_at(setting, obstacle, strand, axis, lambda);
   return {.value = load.value.dot(n),
           .by_axis = {slope({length, 0.0}, 0.0, 0.0, length), slope({0.0, length}, 0.0, 0.0, length),
-                      slope({0.0, 0.0}, step, 0.0, step)},
-          .by_lambda = slope({0.0, 0.0}, 0.0, step, step) + load.rate.dot(n)};
+                      slope({0.0, 0.0}, difference_step_on_wall, 0.0, difference_step_on_wall)},
+          .by_lambda = slope({0.0, 0.0}, 0.0, difference_step_on_wall, difference_step_on_wall) + load.rate.dot(n)};
 }
 
 }  // namespace

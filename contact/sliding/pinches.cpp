@@ -5,6 +5,7 @@
 
 #include "contact/sliding/least_gaps.hpp"
 #include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/tolerances.hpp"
 #include "core/unit_tangent.hpp"
 
 namespace arcwall::sliding {
@@ -180,7 +181,7 @@ std::vector<TouchAtRest> touches_at_corners(const SlidingSetting& setting, const
 }
 
 std::vector<TouchAtRest> touches_at_rest(const SlidingSetting& setting, const SlidingState& rest) {
-  const double touching = 1e-9 * setting.scales.length;
+  const double touching = touching_at_rest * setting.scales.length;
   std::vector<TouchAtRest> touches = touches_at_corners(setting, rest, touching);
   for (const LeastGap& least : least_gaps(setting, rest)) {
     const Obstacle& obstacle = *setting.obstacles[least.obstacle].surface;
@@ -196,9 +197,8 @@ std::vector<TouchAtRest> touches_at_rest(const SlidingSetting& setting, const Sl
 
 // Whether two touches are one place where the obstacles press against each other.
 bool are_opposite(const TouchAtRest& a, const TouchAtRest& b, double length) {
-  constexpr double near = 1e-6, opposite = 1e-9;  // of the length; of the normals
-  return a.at.strand == b.at.strand && std::abs(a.at.s - b.at.s) <= near * length &&
-         a.corner.has_value() == b.corner.has_value() && 1.0 + a.normal.dot(b.normal) <= opposite;
+  return a.at.strand == b.at.strand && std::abs(a.at.s - b.at.s) <= touching_on_path * length &&
+         a.corner.has_value() == b.corner.has_value() && 1.0 + a.normal.dot(b.normal) <= exactly_parallel;
 }
 
 }  // namespace
@@ -210,7 +210,7 @@ std::vector<Pinch> pinches_at_rest(const SlidingSetting& setting, const SlidingS
   const auto is_known = [&](const TouchAtRest& touch) {
     return std::any_of(pinches.begin(), pinches.end(), [&](const Pinch& pinch) {
       const double L = setting.body.length(touch.at.strand);
-      return pinch.strand == touch.at.strand && std::abs(pinch.s - touch.at.s) <= 1e-6 * L;
+      return pinch.strand == touch.at.strand && std::abs(pinch.s - touch.at.s) <= touching_on_path * L;
     });
   };
   for (const TouchAtRest& a : touches)

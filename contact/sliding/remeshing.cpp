@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/sliding/bending.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
@@ -43,7 +44,6 @@ Deferred<State> mapped_when_tried(const SlidingSetting& setting, const SlidingSt
 
 Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                     const EditLayout& edit) {
-  constexpr double step = 1e-6;  // [path metric]
   const auto edited = [&](const SlidingState& from) {
     LayoutEdit changed = edit_of(setting.body, from);
     edit(changed, from);
@@ -52,11 +52,11 @@ Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const
   const LayoutEdit here = edited(at);
   const auto on = layout_of(here);
   Transition transition{.change = Transition::Change::remeshed, .guess = mapped_onto(setting, at, here, on)};
-  const State moved_on = moved(at.state, forward, step);
+  const State moved_on = moved(at.state, forward, difference_step_at_place);
   const SlidingState ahead(moved_on);
   transition.forward = difference(mapped_onto(setting, ahead, edited(ahead), on), transition.guess.get());
-  transition.forward.dx /= step;
-  transition.forward.dlambda /= step;
+  transition.forward.dx /= difference_step_at_place;
+  transition.forward.dlambda /= difference_step_at_place;
   // Where a point slides fast along a body that hardly moves, little but the error of the mesh is left.
   constexpr double sure = 0.01;
   if (motion_of(on->mesh(), transition.forward) < sure * motion_of(at.mesh, forward)) transition.forward.dx.setZero();
@@ -153,12 +153,11 @@ ActiveSet with_layout(const ActiveSet& active_set, std::shared_ptr<const Sliding
 }
 
 ActiveSet canonical_active_set(const SlidingSetting& setting, const SlidingState& at) {
-  constexpr double bent = 1e-6;  // curvature of a part that is not flat, times the length scale
   std::vector<Point> points = at.layout.points();
   bool changed = false;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (points[k].behind != Span::flat) continue;
-    if (std::abs(curvature_gap(setting, at, k)) * setting.scales.length <= bent) continue;
+    if (std::abs(curvature_gap(setting, at, k)) * setting.scales.length <= nearly_straight) continue;
     points[k].behind = Span::free;
     changed = true;
   }

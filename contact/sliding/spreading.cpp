@@ -17,6 +17,7 @@
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
 #include "contact/sliding/tips.hpp"
+#include "contact/sliding/tolerances.hpp"
 #include "core/text.hpp"
 
 namespace arcwall::sliding {
@@ -180,12 +181,12 @@ Shares shares_of_end(const SlidingSetting& setting, const SlidingState& at, std:
 // The half of such a stretch that begins at a plane of symmetry; the number of the point at its edge.
 std::size_t spread_from(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end, Span between,
                         double length, bool may_be_neutral, LayoutEdit& edit) {
-  constexpr double round_off = 1e-9;  // of forces
   const HeldAxis held = held_axis_at_end(setting, at, end);
   const double s = end.last ? setting.body.length(end.strand) - length : length;
   const std::size_t contact = contact_of(setting, at, end) - at.layout.points().size();
   const double load = put_on_end(setting, at, end);
-  if (lies_by_itself(setting, at, held)) between = load > round_off * setting.scales.force ? Span::pressed : Span::flat;
+  if (lies_by_itself(setting, at, held))
+    between = load > zero_force * setting.scales.force ? Span::pressed : Span::flat;
   const bool stays = between == Span::pressed;
   const bool neutral = may_be_neutral && is_neutral_from_plane(setting, at, end, length);
   const double force = setting.free_ends[contact].joined.empty() ? edit.end_forces[contact] : 0.0;
@@ -413,10 +414,9 @@ Planes planes_without_curvature(const SlidingSetting& setting, const SlidingStat
 // soon after each other that none is found between: all of them may spread then.
 std::vector<Transition> spreads_with_those_near(const SlidingSetting& setting, const SlidingState& at,
                                                 const Points& points, const Planes& planes, const Arrival& arrival) {
-  constexpr double near = 1e-5;  // of curvatures, as reached() takes it
   std::vector<Transition> transitions = spreads(setting, at, points, planes);
   const Points all = points_without_curvature(
-      setting, at, {.forward = arrival.forward, .tolerance = near, .at_hand = arrival.at_hand});
+      setting, at, {.forward = arrival.forward, .tolerance = reached_in_weak_asymmetry, .at_hand = arrival.at_hand});
   if (all.size() > points.size())
     for (Transition& transition : spreads(setting, at, all, planes)) transitions.push_back(std::move(transition));
   transitions.push_back(unsupported(why_none_spreads(setting, at, points, planes)));
@@ -425,12 +425,11 @@ std::vector<Transition> spreads_with_those_near(const SlidingSetting& setting, c
 
 // Whether the body is straight from a point to the next one.
 bool is_straight_behind(const SlidingState& at, std::size_t point) {
-  constexpr double straight = 1e-6;  // [rad]
   const auto [strand, first] = at.mesh.breakpoint(static_cast<Index>(point));
   const Index last = at.mesh.breakpoint(static_cast<Index>(point + 1)).second;
   const double angle = at.mesh.node(strand, first, at.now).angle;
   for (Index position = first + 1; position <= last; ++position)
-    if (!(std::abs(at.mesh.node(strand, position, at.now).angle - angle) <= straight)) return false;
+    if (!(std::abs(at.mesh.node(strand, position, at.now).angle - angle) <= nearly_straight)) return false;
   return true;
 }
 

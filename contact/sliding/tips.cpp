@@ -16,6 +16,7 @@
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
@@ -37,7 +38,6 @@ struct ClosedTip {
 };
 
 ClosedTip closed_tip(const SlidingSetting& setting, const SlidingState& at, std::size_t end, const StrandEnd& of) {
-  constexpr double round_off = 1e-6;  // of curvatures, times the length scale
   const FreeEnd there = setting.free_ends[end].seen_from(of);
   ClosedTip tip{.end = end,
                 .strand = of.strand,
@@ -46,7 +46,7 @@ ClosedTip closed_tip(const SlidingSetting& setting, const SlidingState& at, std:
                 .force = at.force(at.layout.points().size() + end)};
   tip.load = put_on_end(setting, at, there);
   tip.bend = end_curvature_gap(setting, at, there);
-  tip.bends_with_it = std::abs(tip.bend) * setting.scales.length <= round_off;
+  tip.bends_with_it = std::abs(tip.bend) * setting.scales.length <= nearly_straight;
   return tip;
 }
 
@@ -66,12 +66,11 @@ Span span_of(Tail tail) {
 // Tips with a tail of some length between each and a new point.
 Transition with_points_inside(const SlidingSetting& setting, const SlidingState& at, const std::vector<ClosedTip>& tips,
                               const std::vector<Tail>& tails, double length) {
-  constexpr double round_off = 1e-9;  // of forces
   LayoutEdit edit = edit_of(setting.body, at);
   for (std::size_t i = 0; i < tips.size(); ++i) {
     const auto& [end, strand, last, obstacle, force, load, bend, bends_with_it] = tips[i];
     const double s = last ? setting.body.length(strand) - length : length;
-    const bool is_loaded = load > round_off * setting.scales.force;
+    const bool is_loaded = load > zero_force * setting.scales.force;
     const bool stays = tails[i] == Tail::pressed || tails[i] == Tail::arch || (tails[i] == Tail::flat && is_loaded);
     edit.ends_closed[end] = static_cast<std::uint8_t>(stays);
     edit.end_forces[end] = stays ? std::max(tails[i] == Tail::arch ? force : load, 0.0) : 0.0;
@@ -137,7 +136,6 @@ enum class Beyond {
 };
 
 Beyond beyond_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
-  constexpr double in_line = 1e-9;  // sine of the angle between both strands
   const auto other = setting.body.joined_end(end.strand, end.last);
   if (!other) return Beyond::nothing;
   const bool same_obstacle = setting.obstacles[end.obstacle].concerns(other->strand);
@@ -150,7 +148,9 @@ Beyond beyond_end(const SlidingSetting& setting, const SlidingState& at, const F
     const FreeEnd next{.strand = other->strand, .last = other->last, .obstacle = w};
     const double turn = sine_from_end(setting, at, end) + sine_from_end(setting, at, next);
     if (step != 0.0) return step > 0.0 ? Beyond::step : Beyond::nothing;
-    return turn > in_line ? Beyond::nothing : turn < -in_line ? Beyond::hollow_bend : Beyond::same_face;
+    return turn > exactly_parallel    ? Beyond::nothing
+           : turn < -exactly_parallel ? Beyond::hollow_bend
+                                      : Beyond::same_face;
   }
   return Beyond::nothing;
 }
@@ -207,7 +207,6 @@ double put_on_end(const SlidingSetting& setting, const SlidingState& at, const F
 
 // The normal at the end changes with the end's place and direction: that by differences.
 Row put_on_end_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
-  constexpr double step = 1e-6;  // of the strand's length, of an angle, of λ
   const Touch touch = touch_of_end(setting, at.layout, end);
   const Obstacle& surface = *setting.obstacles[end.obstacle].surface;
   const SlidingMesh::EndLoad load = at.mesh.load_on_end(end.strand, end.last, at.now);
@@ -229,9 +228,10 @@ Row put_on_end_gradient(const SlidingSetting& setting, const SlidingState& at, c
   const NodeUnknowns unknowns = at.mesh.node_unknowns(end.strand, touch.position);
   for (std::size_t i = 0; i < 3; ++i)
     if (const Index unknown = unknowns[i]; unknown >= 0)
-      row.dx[unknown] -= rate([unknown](State& there, double by) { there.x[unknown] += by; },
-                              i < 2 ? step * setting.body.length(end.strand) : step);
-  row.dlambda -= rate([](State& there, double by) { there.lambda += by; }, step);
+      row.dx[unknown] -=
+          rate([unknown](State& there, double by) { there.x[unknown] += by; },
+               i < 2 ? difference_step_at_place * setting.body.length(end.strand) : difference_step_at_place);
+  row.dlambda -= rate([](State& there, double by) { there.lambda += by; }, difference_step_at_place);
   return row;
 }
 
@@ -358,7 +358,6 @@ std::vector<Transition> peel_off_from_tips(const SlidingSetting& setting, const 
 }
 
 std::optional<Transition> tip_touches_with(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  constexpr double touching = 1e-8;  // gap at the tip, scaled
   const std::size_t points = at.layout.points().size(), obstacle = at.layout.points()[point].obstacle;
   for (std::size_t end = 0; end < setting.free_ends.size(); ++end) {
     const FreeEnd& tip = setting.free_ends[end];
@@ -366,7 +365,7 @@ std::optional<Transition> tip_touches_with(const SlidingSetting& setting, const 
     if (at.layout.point_at_end(tip.strand, tip.last) != point) continue;
     if (at.layout.span_at_end(tip.strand, tip.last) != Span::free) continue;
     const double gap = face_gap(setting, touch_of_contact(setting, at.layout, points + end), at);
-    if (!(std::abs(gap) <= touching * setting.scales.length)) continue;
+    if (!(std::abs(gap) <= touching_with_point * setting.scales.length)) continue;
     LayoutEdit edit = edit_of(setting.body, at);
     edit.ends_closed[end] = 1;
     const auto on = layout_of(edit);

@@ -1,4 +1,5 @@
 #include "contact/sliding/touch.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,10 +76,10 @@ bool is_inside_zone(const SlidingSetting& setting, const SlidingContactLayout& l
 }
 
 bool is_tangent_at_plane(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
-  constexpr double parallel = 1e-9;  // [rad]
   if (!setting.body.is_on_plane(end.strand, end.last)) return false;
   const Touch touch = touch_of_end(setting, at.layout, end);
-  return std::isfinite(face_gap(setting, touch, at)) && std::abs(touch_gap(setting, touch, at).tilt.value) <= parallel;
+  return std::isfinite(face_gap(setting, touch, at)) &&
+         std::abs(touch_gap(setting, touch, at).tilt.value) <= exactly_parallel;
 }
 
 Touch touch_of_node(const SlidingSetting& setting, const SlidingContactLayout::PressedNode& node) {

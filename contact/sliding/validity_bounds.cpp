@@ -18,6 +18,7 @@
 #include "contact/sliding/bounds/straight_end.hpp"
 #include "contact/sliding/bounds/tail.hpp"
 #include "contact/sliding/bounds/tip_presses.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
@@ -126,13 +127,11 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
 
 bool is_reached(const ValidityBound& bound, const SlidingSetting& setting, const SlidingState& at,
                 const Arrival& arrival) {
-  constexpr double near = 1e-6, surely = 1e-9;  // in the scale of bounds
-  constexpr double farther = 1e-3;              // [path metric]
   if (&bound == arrival.at_hand) return true;
   const double value = bound.value(setting, at);
-  if (value > std::max(near, 10.0 * arrival.tolerance)) return false;
-  return value <= std::min(surely, 10.0 * arrival.tolerance) ||
-         value + farther * apply(bound.gradient(setting, at), arrival.forward) <= 0.0;
+  if (value > std::max(reached_nearly, 10.0 * arrival.tolerance)) return false;
+  return value <= std::min(reached_surely, 10.0 * arrival.tolerance) ||
+         value + reached_within * apply(bound.gradient(setting, at), arrival.forward) <= 0.0;
 }
 
 }  // namespace arcwall::sliding

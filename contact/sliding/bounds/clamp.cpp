@@ -6,20 +6,15 @@
 #include "contact/sliding/clamps.hpp"
 #include "contact/sliding/spreading.hpp"
 #include "contact/sliding/tips.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
-namespace {
-
-// Values of the bound of an end that no obstacle touches. A hinged one never comes to do so by itself.
-constexpr double nothing_touches = 1.0, nothing_will = 10.0;
-
-}  // namespace
-
+// A hinged end that no obstacle touches never comes to touch one by itself.
 double ClampBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto end = touched_clamp(setting, at, strand_, last_);
   if (end) return parting(setting, at, *end);
-  return setting.body.is_hinged(strand_, last_) ? nothing_will : nothing_touches;
+  return setting.body.is_hinged(strand_, last_) ? no_guard_for_long : no_guard;
 }
 
 Row ClampBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {

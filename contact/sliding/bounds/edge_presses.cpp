@@ -8,6 +8,7 @@
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/lifting.hpp"
 #include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
@@ -46,8 +47,7 @@ bool must_press(const SlidingSetting& setting, const SlidingState& at, std::size
 }
 
 double EdgePressesBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  constexpr double far = 1.0;
-  return must_press(setting, at, point_) ? at.force(point_) / setting.scales.force : far;
+  return must_press(setting, at, point_) ? at.force(point_) / setting.scales.force : no_guard;
 }
 
 Row EdgePressesBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {

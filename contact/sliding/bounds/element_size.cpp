@@ -5,6 +5,7 @@
 
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
@@ -34,7 +35,7 @@ Row elements_wanted_gradient(const SlidingSetting& setting, const SlidingState& 
                              double factor) {
   const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
   const auto [from, to] = at.layout.ends(setting.body, part, at.now.s);
-  const double step = 1e-6 * setting.body.length(part.strand);
+  const double step = difference_step_at_place * setting.body.length(part.strand);
   const auto density = [&](double S) {
     return setting.body.elements_between(part.strand, S - step, S + step) / (2.0 * step) * factor;
   };

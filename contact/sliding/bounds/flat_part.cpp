@@ -8,6 +8,7 @@
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
 #include "contact/sliding/tips.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
@@ -139,8 +140,7 @@ std::vector<Transition> StraightBound::transitions(const SlidingSetting& setting
 
 // Only of parts that no pressure holds on the wall.
 double LoadedPartBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  constexpr double far = 1.0;
-  if (!part_needs_no_pressure(setting, at, segment_)) return far;
+  if (!part_needs_no_pressure(setting, at, segment_)) return no_guard;
   return 1.0 -
          squared_half_waves(setting, at, segment_, longest_between_loads(setting, at, segment_)) / held_half_waves;
 }

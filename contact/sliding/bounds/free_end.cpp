@@ -6,14 +6,13 @@
 
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/tips.hpp"
+#include "contact/sliding/tolerances.hpp"
 #include "contact/sliding/touch.hpp"
 
 namespace arcwall::sliding {
 
 namespace {
 
-constexpr double out_of_reach = 1.0;     // value of the bounds of an end that does not touch
-constexpr double far = 10.0;             // so that steps need not be short for it: the gap of the end is watched, too
 constexpr double nearly_upright = 0.02;  // cosine: beyond 0 the section's other corner touches, and nothing is smooth
 
 // The contact of an end of a strand to which it is nearest to lying down, seen from that end.
@@ -57,9 +56,10 @@ std::optional<std::size_t> end_nearest_to_lying_down(const SlidingSetting& setti
   return nearest;
 }
 
+// Of an end that does not touch, the gap is watched, too.
 double LiesDownBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto touching = touching_end(setting, at, end());
-  return touching ? sine_from_end(setting, at, *touching) : far;
+  return touching ? sine_from_end(setting, at, *touching) : no_guard_for_long;
 }
 
 Row LiesDownBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
@@ -74,9 +74,9 @@ std::vector<Transition> LiesDownBound::transitions(const SlidingSetting& setting
 
 double UprightBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto touching = touching_end(setting, at, {.strand = strand_, .last = last_});
-  if (!touching || touching->travel == 0.0 || !touching->joined.empty()) return out_of_reach;
+  if (!touching || touching->travel == 0.0 || !touching->joined.empty()) return no_guard;
   const Touch touch = touch_of_end(setting, at.layout, *touching);
-  if (touch.offset == 0.0) return out_of_reach;
+  if (touch.offset == 0.0) return no_guard;
   return touching->travel * std::cos(touch.axis(at).angle) - nearly_upright;
 }
 

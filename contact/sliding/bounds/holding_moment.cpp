@@ -4,6 +4,7 @@
 #include "contact/sliding/lying.hpp"
 #include "contact/sliding/placed_bound.hpp"
 #include "contact/sliding/tips.hpp"
+#include "contact/sliding/tolerances.hpp"
 #include "contact/sliding/touch.hpp"
 
 namespace arcwall::sliding {
@@ -11,8 +12,6 @@ namespace arcwall::sliding {
 namespace {
 
 using Against = HoldingMomentBound::Against;
-
-constexpr double on_curve = 1.0;  // value where the obstacle bends at the end: there it is its bending that decides
 
 bool is_on_curve(const SlidingSetting& setting, const SlidingState& at, std::size_t tip) {
   const Touch touch = touch_of_tip(setting, at.layout.pressed_tips()[tip]);
@@ -32,7 +31,7 @@ HoldingMoment reserve(const SlidingSetting& setting, const SlidingState& at, std
 }  // namespace
 
 double HoldingMomentBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  return is_on_curve(setting, at, tip_) ? on_curve : reserve(setting, at, tip_, against_).value;
+  return is_on_curve(setting, at, tip_) ? no_guard : reserve(setting, at, tip_, against_).value;
 }
 
 Row HoldingMomentBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {

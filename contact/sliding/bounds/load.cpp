@@ -9,12 +9,11 @@
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
 namespace {
-
-constexpr double no_point_near = 1.0;  // of a load on whose strand there is none
 
 double place_of(const SlidingSetting& setting, Index strand, Index load) {
   return setting.body.point_loads(strand)[static_cast<std::size_t>(load)];
@@ -29,7 +28,7 @@ double apart(const SlidingSetting& setting, const SlidingState& at, Index strand
 // Elements per length at a point.
 double density(const SlidingSetting& setting, const SlidingState& at, Index point) {
   const Index strand = at.mesh.breakpoint(point).first;
-  const double step = 1e-6 * setting.body.length(strand), S = at.s(point);
+  const double step = difference_step_at_place * setting.body.length(strand), S = at.s(point);
   return setting.body.elements_between(strand, S - step, S + step) / (2.0 * step);
 }
 
@@ -69,7 +68,7 @@ std::vector<Transition> LoadAheadBound::transitions(const SlidingSetting& settin
 
 double LoadBehindBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const Index nearest = nearest_point(setting, at, strand_, load_);
-  return nearest < 0 ? no_point_near : farthest_load_inside - apart(setting, at, strand_, load_, nearest);
+  return nearest < 0 ? no_guard : farthest_load_inside - apart(setting, at, strand_, load_, nearest);
 }
 
 Row LoadBehindBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
@@ -169,11 +168,9 @@ Transition handed_on(const SlidingSetting& setting, const SlidingState& at, cons
   });
 }
 
-// Of the force scale: a load of zero does not pull.
-constexpr double hardly_pulls = 1e-9;
-
+// A load of zero does not pull.
 double scaled_push(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load) {
-  return push(setting, at, load) / setting.scales.force + hardly_pulls;
+  return push(setting, at, load) / setting.scales.force + zero_force;
 }
 
 }  // namespace

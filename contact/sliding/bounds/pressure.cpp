@@ -2,12 +2,12 @@
 
 #include "contact/sliding/lifting.hpp"
 #include "contact/sliding/pressed_part.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
 double PressureBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  constexpr double far = 1.0;
-  if (part_needs_no_pressure(setting, at, at.layout.pressed_nodes()[node_].segment)) return far;
+  if (part_needs_no_pressure(setting, at, at.layout.pressed_nodes()[node_].segment)) return no_guard;
   return least_pressure(setting, at, node_).value * setting.scales.length / setting.scales.force;
 }
 

@@ -2,13 +2,13 @@
 
 #include "contact/sliding/lifting.hpp"
 #include "contact/sliding/pulling_jumps.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
 double PullingJumpBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  constexpr double far = 1.0;
   const auto beside = pulling_jump_beside(setting, at, point_);
-  return beside ? beside->room(setting.scales) : far;
+  return beside ? beside->room(setting.scales) : no_guard;
 }
 
 Row PullingJumpBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {

@@ -6,14 +6,12 @@
 
 #include "contact/sliding/lying.hpp"
 #include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/tolerances.hpp"
 #include "contact/sliding/touch.hpp"
 
 namespace arcwall::sliding {
 
 namespace {
-
-constexpr double without_end = 1.0;  // value where the obstacle is straight for good
-constexpr double before_end = 1e-6;  // of the length scale: beyond the end no strand lies straight
 
 // The end of a strand on its obstacle: its face and that in the strand's middle, the direction out of the strand, and
 // the sense of the obstacle's coordinate that way.
@@ -40,11 +38,10 @@ struct EndOnObstacle {
 
   // Whether the obstacle goes on in line so far ahead: behind a sharp corner it is straight, too.
   bool goes_on_at(double ahead) const {
-    constexpr double in_line = 1e-6;
     const Vec2 there = middle + ahead * outward;
     return is_flush_at(surface, there, lambda) &&
            std::abs(surface.gap_slope(there, lambda).value) <=
-               in_line * ahead + std::abs(surface.gap_slope(middle, lambda).value);
+               nearly_parallel * ahead + std::abs(surface.gap_slope(middle, lambda).value);
   }
 
   // The coordinate at which the straight stretch ends; on it the coordinate is a length.
@@ -67,9 +64,9 @@ struct EndOnObstacle {
 
 double StraightEndBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const EndOnObstacle end(setting, at, strand_, last_);
-  if (end.surface.knots().empty()) return without_end;
+  if (end.surface.knots().empty()) return no_guard;
   const double room = end.sense * (end.end_of_stretch() - end.surface.along(end.place, end.lambda));
-  return room / setting.scales.length - before_end;
+  return room / setting.scales.length - touching_on_path;
 }
 
 Row StraightEndBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
@@ -78,7 +75,7 @@ Row StraightEndBound::gradient(const SlidingSetting& setting, const SlidingState
   if (end.surface.knots().empty()) return row;
   const double angle = end.surface.direction(end.place, end.lambda).value;
   const Vec2 by_place = -end.sense / setting.scales.length * Vec2(std::cos(angle), std::sin(angle));
-  const double step = 1e-6, lambda = end.lambda;
+  const double step = difference_step_at_place, lambda = end.lambda;
   const double by_lambda =
       (end.surface.along(end.place, lambda + step) - end.surface.along(end.place, lambda - step)) / (2.0 * step);
   add_at_node(at.mesh.node_unknowns(end.touch.strand, end.touch.position), {by_place.x(), by_place.y(), 0.0}, row.dx);

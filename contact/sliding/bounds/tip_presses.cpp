@@ -4,6 +4,7 @@
 
 #include "contact/sliding/lifting.hpp"
 #include "contact/sliding/tips.hpp"
+#include "contact/sliding/tolerances.hpp"
 #include "contact/sliding/touch.hpp"
 
 namespace arcwall::sliding {
@@ -11,14 +12,13 @@ namespace arcwall::sliding {
 namespace {
 
 constexpr double off_its_obstacle = -1.0;  // value where the tip does not touch and the part is pressed up to it
-constexpr double round_off = 1e-9;         // of the force scale
 
 }  // namespace
 
 double TipPressesBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto contact = pressed_contact(setting, at, end());
   if (!contact) return off_its_obstacle;
-  const double hardly_lifts = setting.scales.slack / setting.scales.force + round_off;
+  const double hardly_lifts = setting.scales.slack / setting.scales.force + zero_force;
   return put_on_end(setting, at, setting.free_ends[*contact].seen_from(end())) / setting.scales.force + hardly_lifts;
 }
 
