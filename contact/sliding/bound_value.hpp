@@ -30,7 +30,7 @@ class BoundValue final : public Observable {
 template <class Bound, class Holds>
 std::size_t bound_number(const SlidingContactLayout& on, const Holds& holds) {
   const auto is_it = [&](const auto& bound) {
-    const auto* same = dynamic_cast<const Bound*>(bound.get());
+    const auto* same = as<Bound>(*bound);
     return same != nullptr && holds(*same);
   };
   const auto found = std::find_if(on.bounds().begin(), on.bounds().end(), is_it);

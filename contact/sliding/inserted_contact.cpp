@@ -67,9 +67,9 @@ bool are_divided_alike(const LayoutEdit& one, const LayoutEdit& other) {
 bool is_unfit(const SlidingSetting& setting, const State& state, std::size_t point) {
   const SlidingState at(state);
   return std::any_of(at.layout.bounds().begin(), at.layout.bounds().end(), [&](const auto& bound) {
-    const auto* curvature = dynamic_cast<const CurvatureBound*>(bound.get());
-    const auto* room = dynamic_cast<const RoomBound*>(bound.get());
-    const auto* tail = dynamic_cast<const TailBound*>(bound.get());
+    const auto* curvature = as<CurvatureBound>(*bound);
+    const auto* room = as<RoomBound>(*bound);
+    const auto* tail = as<TailBound>(*bound);
     const bool is_its_own = (curvature && curvature->point() == point) || (tail && tail->point() == point) ||
                             (room && room->is_beside(at.layout, static_cast<Index>(point)));
     return is_its_own && bound->value(setting, at) <= (tail ? between_meshes : 0.0);

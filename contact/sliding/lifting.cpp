@@ -172,7 +172,7 @@ template <class Bound, class Wanted>
 std::vector<Index> bounds_of(const SlidingState& at, const Wanted& wanted) {
   std::vector<Index> numbers;
   for (std::size_t i = 0; i < at.layout.bounds().size(); ++i) {
-    const auto* bound = dynamic_cast<const Bound*>(at.layout.bounds()[i].get());
+    const auto* bound = as<Bound>(*at.layout.bounds()[i]);
     if (bound != nullptr && wanted(*bound)) numbers.push_back(static_cast<Index>(at.contacts() + i));
   }
   return numbers;
@@ -244,7 +244,7 @@ void name_ends(const SlidingSetting& setting, const ActiveSet& ahead, Index stra
         contacts.push_back(static_cast<Index>(on.points().size() + j));
     }
     for (std::size_t i = 0; i < on.bounds().size(); ++i) {
-      const auto* held = dynamic_cast<const ClampBound*>(on.bounds()[i].get());
+      const auto* held = as<ClampBound>(*on.bounds()[i]);
       if (held != nullptr && held->strand() == strand && held->last() == last)
         contacts.push_back(static_cast<Index>(ahead.size() + i));
     }
@@ -353,7 +353,7 @@ const PressureBound& pressure_bound_at(const SlidingState& at, std::size_t segme
   double least = infinity;
   Index node = 0;  // of the part
   for (const auto& bound : at.layout.bounds()) {
-    const auto* of_pressure = dynamic_cast<const PressureBound*>(bound.get());
+    const auto* of_pressure = as<PressureBound>(*bound);
     if (of_pressure == nullptr || pressed[of_pressure->node()].segment != segment) continue;
     if (const double far = std::abs(double(++node) - place); far < least) {
       least = far;

@@ -15,7 +15,8 @@ BoundPlace place_of_segment(const SlidingSetting& setting, const SlidingState& a
 BoundPlace place_of_end(const SlidingSetting& setting, const SlidingState& at, const StrandEnd& end);
 
 /// A bound of a tracked point.
-class BoundOfPoint : public ValidityBound {
+template <BoundKind of>
+class BoundOfPoint : public BoundOfKind<of> {
  public:
   explicit BoundOfPoint(std::size_t point) : point_(point) {}
   std::size_t point() const { return point_; }
@@ -26,7 +27,8 @@ class BoundOfPoint : public ValidityBound {
 };
 
 /// A bound of a segment.
-class BoundOfSegment : public ValidityBound {
+template <BoundKind of>
+class BoundOfSegment : public BoundOfKind<of> {
  public:
   explicit BoundOfSegment(std::size_t segment) : segment_(segment) {}
   BoundPlace place(const SlidingSetting& setting, const SlidingState& at) const override {
@@ -38,7 +40,8 @@ class BoundOfSegment : public ValidityBound {
 };
 
 /// A bound of an end of a strand.
-class BoundOfEnd : public ValidityBound {
+template <BoundKind of>
+class BoundOfEnd : public BoundOfKind<of> {
  public:
   BoundOfEnd(Index strand, bool last) : strand_(strand), last_(last) {}
   Index strand() const { return strand_; }
@@ -54,7 +57,8 @@ class BoundOfEnd : public ValidityBound {
 };
 
 /// A bound of a point load and a part that lies on an obstacle.
-class BoundOfPartLoad : public ValidityBound {
+template <BoundKind of>
+class BoundOfPartLoad : public BoundOfKind<of> {
  public:
   explicit BoundOfPartLoad(const PartLoad& load) : load_(load) {}
   const PartLoad& load() const { return load_; }

@@ -50,7 +50,7 @@ std::size_t nearest(const SlidingContactLayout& on, const Vector& s, double plac
   std::size_t nearest = on.bounds().size();
   double least = infinity;
   for (std::size_t i = 0; i < on.bounds().size(); ++i) {
-    const auto* bound = dynamic_cast<const Bound*>(on.bounds()[i].get());
+    const auto* bound = as<Bound>(*on.bounds()[i]);
     if (bound == nullptr || std::abs(place_of(*bound, on, s) - place) >= least) continue;
     least = std::abs(place_of(*bound, on, s) - place);
     nearest = i;

@@ -13,6 +13,37 @@ namespace arcwall::sliding {
 
 class ValidityBound;
 
+/// What validity bounds watch: one class each.
+enum class BoundKind {
+  clamp,
+  coarse,
+  curvature,
+  edge_presses,
+  end_stays,
+  fine,
+  half_wave,
+  holding_moment,
+  length,
+  lies_down,
+  load_ahead,
+  load_behind,
+  load_beside_part,
+  load_in_part,
+  load_presses,
+  loaded_part,
+  neutral,
+  pinch,
+  pressure,
+  pulling_jump,
+  room,
+  straight,
+  straight_end,
+  tail,
+  tip_presses,
+  unlike,
+  upright,
+};
+
 /// How a state came to a validity bound.
 struct Arrival {
   const Direction& forward;                ///< of the path
@@ -35,6 +66,8 @@ class ValidityBound {
  public:
   virtual ~ValidityBound() = default;
 
+  virtual BoundKind kind() const = 0;
+
   /// Positive on the active set, of order 1.
   virtual double value(const SlidingSetting& setting, const SlidingState& at) const = 0;
 
@@ -55,8 +88,22 @@ class ValidityBound {
                                               const Arrival& arrival) const = 0;
 };
 
+/// A bound of one kind.
+template <BoundKind of>
+class BoundOfKind : public ValidityBound {
+ public:
+  static constexpr BoundKind kind_of = of;
+  BoundKind kind() const final { return of; }
+};
+
+/// A bound as one of its kind; null if it is of another.
+template <class Bound>
+const Bound* as(const ValidityBound& bound) {
+  return bound.kind() == Bound::kind_of ? static_cast<const Bound*>(&bound) : nullptr;
+}
+
 /// All bounds of a layout: of its tracked points, its segments, its pressed nodes and the free ends. To add a kind of
-/// bound, write a class for it and add a line here.
+/// bound, write a class for it, with a BoundKind, and add a line here.
 std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingBody& body,
                                                                   const SlidingContactLayout& on);
 
@@ -70,7 +117,7 @@ template <class Bound>
 std::vector<const Bound*> reached(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
   std::vector<const Bound*> found;
   for (const auto& bound : at.layout.bounds())
-    if (const auto* same = dynamic_cast<const Bound*>(bound.get()))
+    if (const auto* same = as<Bound>(*bound))
       if (is_reached(*same, setting, at, arrival)) found.push_back(same);
   return found;
 }

@@ -8,7 +8,7 @@ namespace arcwall::sliding {
 /// clamped end or one on a plane of symmetry, the slope of a hinged one. Behind the bound the body lies on the obstacle
 /// from the end on, or, where an end on a roller touches, contact may move inside (LiesDownBound). Positive where no
 /// obstacle is touched, and where the body lies there already.
-class ClampBound final : public BoundOfEnd {
+class ClampBound final : public BoundOfEnd<BoundKind::clamp> {
  public:
   using BoundOfEnd::BoundOfEnd;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;

@@ -8,7 +8,7 @@ namespace arcwall::sliding {
 /// the point contact becomes a line. Open: the least gap that the point follows becomes shallow, and before it vanishes
 /// the point must be given up, as nothing would say where it is; so it vanishes at once where an arc of the wall goes
 /// over into a line, from which the body turns away.
-class CurvatureBound final : public BoundOfPoint {
+class CurvatureBound final : public BoundOfPoint<BoundKind::curvature> {
  public:
   using BoundOfPoint::BoundOfPoint;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;

@@ -11,7 +11,7 @@ bool must_press(const SlidingSetting& setting, const SlidingState& at, std::size
 
 /// The force of such an edge. Only a mesh that does not follow the bending beside the edge, within √(EI/N) of it under
 /// the tension N, lets it vanish: there is no equilibrium behind the bound.
-class EdgePressesBound final : public BoundOfPoint {
+class EdgePressesBound final : public BoundOfPoint<BoundKind::edge_presses> {
  public:
   using BoundOfPoint::BoundOfPoint;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;

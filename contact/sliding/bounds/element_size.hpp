@@ -6,7 +6,7 @@ namespace arcwall::sliding {
 
 /// Elements of a segment that have become longer than 1.25 times what the deck asks for: behind the bound there are
 /// twice as many.
-class CoarseBound final : public BoundOfSegment {
+class CoarseBound final : public BoundOfSegment<BoundKind::coarse> {
  public:
   using BoundOfSegment::BoundOfSegment;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
@@ -17,7 +17,7 @@ class CoarseBound final : public BoundOfSegment {
 
 /// Elements of a segment that have become shorter than 0.25 times what the deck asks for: behind the bound there are
 /// half as many.
-class FineBound final : public BoundOfSegment {
+class FineBound final : public BoundOfSegment<BoundKind::fine> {
  public:
   using BoundOfSegment::BoundOfSegment;
 
@@ -33,7 +33,7 @@ class FineBound final : public BoundOfSegment {
 };
 
 /// Two segments with unlike numbers of elements come to be of about one length: behind the bound they have the same.
-class UnlikeBound final : public ValidityBound {
+class UnlikeBound final : public BoundOfKind<BoundKind::unlike> {
  public:
   UnlikeBound(const SlidingBody& body, const SlidingContactLayout& on, std::size_t longer, std::size_t shorter);
 

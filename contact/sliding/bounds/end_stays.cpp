@@ -33,7 +33,7 @@ std::vector<Transition> EndStaysBound::transitions(const SlidingSetting& setting
   std::vector<bool> ends;
   std::vector<Index> numbers;  // of their bounds among the guards
   for (std::size_t i = 0; i < at.layout.bounds().size(); ++i) {
-    const auto* bound = dynamic_cast<const EndStaysBound*>(at.layout.bounds()[i].get());
+    const auto* bound = as<EndStaysBound>(*at.layout.bounds()[i]);
     if (bound == nullptr || bound->strand() != strand_) continue;
     if (bound != this && !(apply(bound->gradient(setting, at), arrival.forward) < 0.0)) continue;
     ends.push_back(bound->last());

@@ -6,7 +6,7 @@ namespace arcwall::sliding {
 
 /// The length of a flat part that has one element, over half a wave of its buckling (8.6): behind the bound it has
 /// elements of its own.
-class HalfWaveBound final : public BoundOfSegment {
+class HalfWaveBound final : public BoundOfSegment<BoundKind::half_wave> {
  public:
   using BoundOfSegment::BoundOfSegment;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
@@ -16,7 +16,7 @@ class HalfWaveBound final : public BoundOfSegment {
 };
 
 /// The reverse: behind the bound, at 0.8 of half a wave, a flat part with elements of its own has one again.
-class StraightBound final : public BoundOfSegment {
+class StraightBound final : public BoundOfSegment<BoundKind::straight> {
  public:
   using BoundOfSegment::BoundOfSegment;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
@@ -27,7 +27,7 @@ class StraightBound final : public BoundOfSegment {
 
 /// The longest stretch of a part without pressure between the point loads that it hands on and its ends: behind the
 /// bound it buckles between them, which the nodes pressed on the wall would hide.
-class LoadedPartBound final : public BoundOfSegment {
+class LoadedPartBound final : public BoundOfSegment<BoundKind::loaded_part> {
  public:
   using BoundOfSegment::BoundOfSegment;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;

@@ -19,7 +19,7 @@ std::optional<std::size_t> end_nearest_to_lying_down(const SlidingSetting& setti
 
 /// How fast the gap grows from a free end, or one on a roller, on that touches: behind the bound a tip lies down on the
 /// wall, or contact moves inside. Positive where the end does not touch.
-class LiesDownBound final : public BoundOfEnd {
+class LiesDownBound final : public BoundOfEnd<BoundKind::lies_down> {
  public:
   using BoundOfEnd::BoundOfEnd;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
@@ -30,7 +30,7 @@ class LiesDownBound final : public BoundOfEnd {
 
 /// How far a free end that touches is from standing upright: behind the bound its section's other corner would touch,
 /// which is not modelled. Positive where the end does not touch, and at a joint in line, which has no such corner.
-class UprightBound final : public BoundOfEnd {
+class UprightBound final : public BoundOfEnd<BoundKind::upright> {
  public:
   using BoundOfEnd::BoundOfEnd;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;

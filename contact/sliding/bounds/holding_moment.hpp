@@ -8,7 +8,7 @@ namespace arcwall::sliding {
 /// may push: behind the bound it would have to pull, and the part peels off from the end. Of a free one, which takes
 /// none, it is nothing but what the pressure over an element makes of it on the mesh: behind the bounds of both signs a
 /// moment on the tip arches the part off beside it, or lifts it.
-class HoldingMomentBound final : public ValidityBound {
+class HoldingMomentBound final : public BoundOfKind<BoundKind::holding_moment> {
  public:
   enum class Against { pulling, lifting };
 

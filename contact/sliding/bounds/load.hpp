@@ -7,7 +7,7 @@ namespace arcwall::sliding {
 
 /// The room between a tracked point and a point load that has a node: half an element. Behind the bound the load acts
 /// inside an element, so that the point may come to it and pass it.
-class LoadAheadBound final : public BoundOfSegment {
+class LoadAheadBound final : public BoundOfSegment<BoundKind::load_ahead> {
  public:
   using BoundOfSegment::BoundOfSegment;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
@@ -18,7 +18,7 @@ class LoadAheadBound final : public BoundOfSegment {
 
 /// The reverse: behind the bound, at three quarters of an element from the nearest tracked point, a load that acts
 /// inside an element has a node again.
-class LoadBehindBound final : public ValidityBound {
+class LoadBehindBound final : public BoundOfKind<BoundKind::load_behind> {
  public:
   LoadBehindBound(Index strand, Index load) : strand_(strand), load_(load) {}
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
@@ -33,7 +33,7 @@ class LoadBehindBound final : public ValidityBound {
 
 /// The elements between the edge of a part that lies on a wall and a load that acts inside an element beside it. Behind
 /// the bound the part hands the load on to the wall; one without pressure is then meshed as a pressed one.
-class LoadBesidePartBound final : public BoundOfPartLoad {
+class LoadBesidePartBound final : public BoundOfPartLoad<BoundKind::load_beside_part> {
  public:
   using BoundOfPartLoad::BoundOfPartLoad;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
@@ -44,7 +44,7 @@ class LoadBesidePartBound final : public BoundOfPartLoad {
 
 /// The reverse: the elements between a load that a pressed part hands on and the nearest edge of the part. A little
 /// behind the edge, where the bound is, the load acts on the member.
-class LoadInPartBound final : public BoundOfPartLoad {
+class LoadInPartBound final : public BoundOfPartLoad<BoundKind::load_in_part> {
  public:
   using BoundOfPartLoad::BoundOfPartLoad;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
@@ -54,7 +54,7 @@ class LoadInPartBound final : public BoundOfPartLoad {
 };
 
 /// The force with which a load presses a part that hands it on. Behind the bound it would pull, and the part lifts off.
-class LoadPressesBound final : public BoundOfPartLoad {
+class LoadPressesBound final : public BoundOfPartLoad<BoundKind::load_presses> {
  public:
   using BoundOfPartLoad::BoundOfPartLoad;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;

@@ -6,7 +6,7 @@ namespace arcwall::sliding {
 
 /// The moments at the ends of a neutral span, and the force that holds its middle. Behind the bound nothing holds it:
 /// the contact beside it bears a moment again, or the body is not symmetric.
-class NeutralBound final : public ValidityBound {
+class NeutralBound final : public BoundOfKind<BoundKind::neutral> {
  public:
   /// By its number in the layout.
   explicit NeutralBound(std::size_t span) : span_(span) {}

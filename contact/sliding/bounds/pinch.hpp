@@ -7,7 +7,7 @@ namespace arcwall::sliding {
 /// How much more an obstacle of a pinch bends towards the body than the body does on one side, or by what angle the
 /// body is off a flank of a knife edge: behind the bound the body would wrap round that obstacle, which is not
 /// modelled.
-class PinchBound final : public ValidityBound {
+class PinchBound final : public BoundOfKind<BoundKind::pinch> {
  public:
   /// `other`: the second of the pinch's obstacles.
   PinchBound(std::size_t point, SlidingMesh::At side, bool other) : point_(point), side_(side), other_(other) {}

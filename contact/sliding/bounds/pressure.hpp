@@ -6,7 +6,7 @@ namespace arcwall::sliding {
 
 /// The least pressure around a pressed node: behind the bound the part has lifted off inside. A part that needs no
 /// pressure, and only hands loads on, stays.
-class PressureBound final : public ValidityBound {
+class PressureBound final : public BoundOfKind<BoundKind::pressure> {
  public:
   explicit PressureBound(std::size_t node) : node_(node) {}
   double value(const SlidingSetting& setting, const SlidingState& at) const override;

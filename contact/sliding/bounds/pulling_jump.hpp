@@ -6,7 +6,7 @@ namespace arcwall::sliding {
 
 /// How far the edge of a pressed part is from the next place ahead of it where the rate of the wall's curvature jumps
 /// so that the wall would have to pull on the part there. Behind the bound an arch opens across that place.
-class PullingJumpBound final : public BoundOfPoint {
+class PullingJumpBound final : public BoundOfPoint<BoundKind::pulling_jump> {
  public:
   using BoundOfPoint::BoundOfPoint;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;

@@ -7,7 +7,7 @@ namespace arcwall::sliding {
 /// The room between a tracked point and a clamped end of its strand, or one at several others, or a contact with
 /// another obstacle: half an element. What touches beyond is another kind of contact, which is not modelled; an open
 /// point is given up.
-class RoomBound final : public BoundOfSegment {
+class RoomBound final : public BoundOfSegment<BoundKind::room> {
  public:
   using BoundOfSegment::BoundOfSegment;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;

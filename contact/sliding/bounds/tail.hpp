@@ -7,7 +7,7 @@ namespace arcwall::sliding {
 /// The length of a strand between a tracked point and an end up to which contact may come, or another one up to which
 /// the body lies on the wall. Behind the bound the contact has passed to the end, or the stretch on the wall has
 /// gathered there; an open point is given up: a tip watches on, and a hinged end opens no gap.
-class TailBound final : public ValidityBound {
+class TailBound final : public BoundOfKind<BoundKind::tail> {
  public:
   TailBound(Index strand, bool last, std::size_t point) : strand_(strand), last_(last), point_(point) {}
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
