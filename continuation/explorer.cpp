@@ -10,6 +10,7 @@
 #include "continuation/path_tolerances.hpp"
 #include "continuation/stability.hpp"
 #include "continuation/stops.hpp"
+#include "core/nearly_equal.hpp"
 #include "core/turns.hpp"
 
 namespace arcwall {
@@ -28,11 +29,6 @@ namespace {
 
 constexpr double same_branch_point = 1e-6;  // two located branch points in the path metric
 constexpr double arriving = 1e-5;           // by so much a branch may end before the branch point that it joins
-constexpr double same_value = 1e-9;         // relative difference of λ and energy between mirror images
-
-bool nearly_equal(double a, double b, double scale) {
-  return std::abs(a - b) <= same_value * std::max(scale, std::abs(a) + std::abs(b));
-}
 
 std::vector<TriedWay> tried_ways(const System& system, const TraceOptions& trace, const BranchPoint& point,
                                  const Metric& metric, double distance) {
@@ -65,7 +61,7 @@ std::vector<TriedWay> tried_ways(const System& system, const TraceOptions& trace
 bool mirror_images(const std::vector<TriedWay>& ways) {
   if (ways.size() != 2) return false;
   const State &a = ways[0].step.state, &b = ways[1].step.state;
-  return nearly_equal(a.lambda, b.lambda, 0.0) && nearly_equal(ways[0].energy, ways[1].energy, 0.0);
+  return nearly_equal(a.lambda, b.lambda) && nearly_equal(ways[0].energy, ways[1].energy);
 }
 
 // Whether the structure follows a way off a stable branch while λ goes on: else it jumps.
@@ -109,7 +105,7 @@ BranchStart start_along(const System& system, const Event& event, const BranchPo
 // load, its energy and its contacts, and so has its mirror image.
 bool is_same_on_another_layout(const System& system, const State& a, const State& b) {
   return a.active_set.layout() != b.active_set.layout() && a.active_set.closed_count() == b.active_set.closed_count() &&
-         nearly_equal(a.lambda, b.lambda, 0.0) && nearly_equal(system.energy(a), system.energy(b), 0.0);
+         nearly_equal(a.lambda, b.lambda) && nearly_equal(system.energy(a), system.energy(b));
 }
 
 bool is_known(const System& system, const std::vector<KnownPoint>& known, const BranchPoint& point,

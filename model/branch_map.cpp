@@ -6,16 +6,13 @@
 #include <set>
 #include <utility>
 
+#include "core/nearly_equal.hpp"
 #include "model/contact_pattern.hpp"
 #include "model/event_names.hpp"
 
 namespace arcwall {
 
 namespace {
-
-constexpr double same_value = 1e-9;  // relative difference of λ and energy between mirror images
-
-bool nearly_equal(double a, double b) { return std::abs(a - b) <= same_value * (std::abs(a) + std::abs(b)); }
 
 bool parts_segments(const RecordEvent& event) {
   const bool turns = event.kind == EventKind::limit_point || event.kind == EventKind::contact_limit_point ||
@@ -196,7 +193,7 @@ class Maker {
       return std::array{low.first, low.second, high.first, high.second};
     };
     const auto of_a = ends(a), of_b = ends(b);
-    return std::equal(of_a.begin(), of_a.end(), of_b.begin(), nearly_equal);
+    return std::equal(of_a.begin(), of_a.end(), of_b.begin(), [](double x, double y) { return nearly_equal(x, y); });
   }
 
   // Of segments that are images of each other the first stays.

@@ -9,6 +9,7 @@
 #include "continuation/answers/equilibrium_at.hpp"
 #include "continuation/tracer.hpp"
 #include "core/algebra/near_null.hpp"
+#include "core/nearly_equal.hpp"
 #include "model/contact_pattern.hpp"
 #include "model/element_slopes.hpp"
 #include "model/event_names.hpp"
@@ -21,7 +22,6 @@ namespace {
 // All lengths in the path metric of the deck's mesh.
 constexpr Index modes_of_each = 6;  // equilibrium known
 constexpr double least_push = 0.02, greatest_push = 0.5;
-constexpr double unmoved = 1e-9;  // relative difference of λ and energy between points at which nothing has moved
 
 bool is_one(const DeckMesh& mesh, const CountedState& a, const CountedState& b) {
   return a.count.unstable == b.count.unstable &&
@@ -384,12 +384,11 @@ std::optional<BranchEnd> end_where_it_walks_back(const Model& model, const Recor
   const std::vector<RecordPoint>& points = record.points;
   const RecordPoint& last = points.back();
   const auto is_on_branch = [&](std::size_t i) { return points[i].branch == last.branch; };
-  const auto is_same = [&](double a, double b) { return std::abs(a - b) <= unmoved * (std::abs(a) + std::abs(b)); };
   if (points.size() < 4) return std::nullopt;
   const std::size_t to = points.size() - 2;  // the last point of those at which nothing has moved
   std::size_t from = to;
-  while (from > 0 && is_on_branch(from - 1) && is_same(points[from - 1].lambda, points[to].lambda) &&
-         is_same(points[from - 1].energy, points[to].energy))
+  while (from > 0 && is_on_branch(from - 1) && nearly_equal(points[from - 1].lambda, points[to].lambda) &&
+         nearly_equal(points[from - 1].energy, points[to].energy))
     --from;
   const auto changes = [&](std::size_t i) { return points[i].event && changes_contact(*points[i].event); };
   if (from == to || from == 0 || !is_on_branch(from - 1) || !changes(from) || !changes(to)) return std::nullopt;

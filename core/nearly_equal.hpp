@@ -1,0 +1,16 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcwall {
+
+/// Relative difference of λ and energy between states that differ by round-off: mirror images, and states between which
+/// nothing has moved.
+inline constexpr double same_value = 1e-9;
+
+inline bool nearly_equal(double a, double b, double scale = 0.0) {
+  return std::abs(a - b) <= same_value * std::max(scale, std::abs(a) + std::abs(b));
+}
+
+}  // namespace arcwall
