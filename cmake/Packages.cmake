@@ -31,7 +31,7 @@ if(ARCWALL_STATIC_LIBRARIES)
 endif()
 # Else Debian takes the reference BLAS.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libopenblas0-serial | libopenblas0")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "bash-completion, libarcwall-dev, parallel")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "bash-completion, libarcwall-dev, parallel, xdg-utils")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
   "The program trace-path reads a structure from one text file, follows its
 equilibrium path through limit points, snap-backs and changes of contact,

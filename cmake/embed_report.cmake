@@ -1,21 +1,21 @@
-# Makes a C++ source of report.html's parts:
+# Makes a C++ source of the parts of report.html and of the page of `explore`:
 #
 #   cmake -DFOLDER=… -DSCRIPTS=data,curve -DPLOTLY_SCRIPT=… -DPLOTLY_LICENCE=… -DOUTPUT=… -P embed_report.cmake
 #
 # Without plotly its two files are empty words.
-foreach(part page.html page.css)
+foreach(part page.html page.css explore.html explore.css explore.js)
   file(READ "${FOLDER}/${part}" text)
   string(REPLACE "." "_" name ${part})
   set(${name} "${text}")
 endforeach()
-# The files of the script are one script with one scope, in this order.
+# The files of the script are one function with one scope, in this order: it shows the run whose parts are in the page.
 string(REPLACE "," ";" names "${SCRIPTS}")
-set(page_js "'use strict';\n(() => {\n")
+set(page_js "'use strict';\nconst show_report = (data, before) => {\n")
 foreach(name IN LISTS names)
   file(READ "${FOLDER}/script/${name}.js" text)
   string(APPEND page_js "${text}\n")
 endforeach()
-string(APPEND page_js "})();\n")
+string(APPEND page_js "};\n")
 set(library "")
 if(PLOTLY_SCRIPT)
   file(READ "${PLOTLY_SCRIPT}" script)
@@ -36,6 +36,9 @@ const ReportParts& report_parts() {
       .style = R\"report(${page_css})report\",
       .script = R\"report(${page_js})report\",
       .library = R\"report(${library})report\",
+      .explorer_page = R\"report(${explore_html})report\",
+      .explorer_style = R\"report(${explore_css})report\",
+      .explorer_script = R\"report(${explore_js})report\",
   };
   return parts;
 }

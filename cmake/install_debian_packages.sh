@@ -13,7 +13,7 @@ packages_of() {
   case "$1" in
     build)
       echo g++ cmake ninja-build libeigen3-dev libsuitesparse-dev libopenblas0-serial \
-        libboost-program-options-dev libboost-math-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libpugixml-dev zlib1g-dev
+        libboost-dev libboost-program-options-dev libboost-math-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libpugixml-dev zlib1g-dev
       ;;
     test) echo libgtest-dev librapidcheck-dev python3 python3-meshio parallel groff-base dpkg-dev curl mmdebstrap ;;
     python)

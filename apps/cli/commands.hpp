@@ -20,6 +20,7 @@ Command report_command();
 Command verify_command();
 Command converge_command();
 Command curve_command();
+Command explore_command();
 Command check_command();
 Command examples_command();
 

@@ -142,8 +142,8 @@ ExitStatus dispatch(const std::vector<std::string>& arguments) {
 }  // namespace
 
 std::vector<Command> commands() {
-  return {run_command(),      resume_command(), report_command(), verify_command(),
-          converge_command(), curve_command(),  check_command(),  examples_command()};
+  return {run_command(),   resume_command(),  report_command(), verify_command(),  converge_command(),
+          curve_command(), explore_command(), check_command(),  examples_command()};
 }
 
 ExitStatus run_program(const std::vector<std::string>& arguments) {

@@ -440,7 +440,7 @@ nlohmann::ordered_json data_of(const Record& record, const ReportContent& conten
 
 }  // namespace
 
-ReportPage::ReportPage(const Record& record, const ReportContent& content)
+ReportPage::ReportPage(const Record& record, const ReportContent& content, const ReportParts& carried)
     : fields_{
           {"library_note", report_parts().library.empty()
                                ? "This trace-path was built without plotly: the curves are still pictures without zoom."
@@ -470,8 +470,13 @@ ReportPage::ReportPage(const Record& record, const ReportContent& content)
           {"deck", escaped(plain(content.deck_text))},
           {"facts", facts(content)},
           {"data", script_json(data_of(record, content))}} {
-  const ReportParts& parts = report_parts();
-  pieces_ = filled(parts.page, {{"style", parts.style}, {"script", parts.script}, {"library", parts.library}}, fields_);
+  constexpr std::string_view start = "show_report(JSON.parse(document.getElementById('data').textContent));\n";
+  pieces_ = filled(carried.page,
+                   {{"style", carried.style},
+                    {"script", carried.script},
+                    {"library", carried.library},
+                    {"start", carried.script.empty() ? "" : start}},
+                   fields_);
 }
 
 std::string ReportPage::text() const {

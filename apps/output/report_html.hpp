@@ -10,6 +10,7 @@
 #include "apps/output/files.hpp"
 #include "apps/output/load_text.hpp"
 #include "apps/output/overlay.hpp"
+#include "apps/output/report_parts.hpp"
 #include "apps/output/shape_pictures.hpp"
 #include "model/model.hpp"
 #include "model/record.hpp"
@@ -33,7 +34,8 @@ ReportContent report_content(const Model& model, const Record& record, const Dra
 /// report.html: one page that needs no other file and no network.
 class ReportPage {
  public:
-  ReportPage(const Record& record, const ReportContent& content);
+  /// `carried`: what stands in the page beside its own text; without scripts it is the contents of another page.
+  ReportPage(const Record& record, const ReportContent& content, const ReportParts& carried = report_parts());
   ReportPage(const ReportPage&) = delete;
   ReportPage& operator=(const ReportPage&) = delete;
 

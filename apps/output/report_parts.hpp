@@ -4,12 +4,14 @@
 
 namespace arcwall {
 
-/// What the program carries of report.html; apps/report/ has the sources.
+/// What the program carries of report.html and of the page of `explore`; apps/report/ has the sources.
 struct ReportParts {
   std::string_view page{};     ///< with `{{name}}` where something is to be filled in
   std::string_view style{};    ///< CSS
-  std::string_view script{};   ///< JavaScript
+  std::string_view script{};   ///< JavaScript: show_report()
   std::string_view library{};  ///< plotly with its licence; empty if the program was built without
+
+  std::string_view explorer_page{}, explorer_style{}, explorer_script{};
 };
 
 const ReportParts& report_parts();

@@ -40,7 +40,7 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-// A page, and what it complains about or asks for.
+// A page, and what it complains about or asks for: a file, or an address whose server has what it needs.
 export const open = async (file, options = {}, fragment = '') => {
   const context = await browser.newContext({ viewport: desktop, ...options });
   context.setDefaultTimeout(120_000);  // a bound on hanging, on busy machines too
@@ -52,11 +52,12 @@ export const open = async (file, options = {}, fragment = '') => {
   page.on('pageerror', (error) => complaints.push(error.message));
   page.on('dialog', (dialog) => { complaints.push(`dialog ${dialog.message()}`); dialog.dismiss(); });
   page.on('request', (request) => requests.push(request.url()));
-  const address = pathToFileURL(file).href;
+  const is_served = file.startsWith('http:');
+  const address = is_served ? file : pathToFileURL(file).href;
   await page.goto(address + fragment);
   const finish = async () => {
     assert.deepEqual(complaints, [], 'the console is quiet');
-    assert.deepEqual(requests.filter((url) => url !== address && !/^(data|blob):/.test(url)), [], 'nothing is fetched');
+    assert.deepEqual(requests.filter((url) => !(is_served ? url.startsWith(address) : url === address) && !/^(data|blob):/.test(url)), [], 'nothing is fetched');
     await context.close();
   };
   return { page, finish };

@@ -1,5 +1,5 @@
 // The chart: plotly's where the page carries it, else the pictures of the page.
-const plotly_chart = (picked) => {
+const plotly_chart = (picked, axes) => {
   const plot = element('plot');
   const here_trace = () => ({ type: 'scatter', mode: 'markers', x: [], y: [], hoverinfo: 'skip',
     marker: { size: 20, symbol: 'circle-open', color: colour('force'), line: { width: 3 } } });
@@ -11,7 +11,7 @@ const plotly_chart = (picked) => {
     return { type: 'scatter', mode: 'lines', hoverinfo: 'skip', fill: 'tozeroy', fillcolor: `${colour('accent')}33`, line: { width: 0 },
       x: shown.across.values.slice(first, last), y: shown.up.values.slice(first, last) };
   };
-  let shown = { across: first_across, up: load }, marked = 0, traces = 0, marks = -1, shaded = null;
+  let shown = axes, marked = 0, traces = 0, marks = -1, shaded = null;
   const sizes = () => [plot.clientWidth - 80, plot.clientHeight - 80];
   const whole = () => [shown.across, shown.up].map(({ values }) => {
     const finite = values.filter((value) => value !== null);
@@ -72,7 +72,8 @@ const plotly_chart = (picked) => {
     });
   };
   draw();
-  window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
+  window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw, { signal: closing.signal });
+  closing.signal.addEventListener('abort', () => Plotly.purge(plot));
   const shade = (ends) => {
     shaded = ends;
     const { x, y } = area_trace();
@@ -81,7 +82,7 @@ const plotly_chart = (picked) => {
   return { choose: (across, up) => { shown = { across, up }; draw(); }, mark, shade };
 };
 
-const picture_chart = (picked) => {
+const picture_chart = (picked, axes) => {
   element('plot').remove();
   element('up').remove();
   const pictured = columns.length > 0 ? quantities.slice(1, 1 + columns.length) : [first_across];
@@ -111,7 +112,7 @@ const picture_chart = (picked) => {
   });
   element('charts').classList.add('chosen-only');
   const choose = (across) => figures.forEach((figure, i) => figure.classList.toggle('chosen', pictured[i] === across));
-  choose(first_across);
+  choose(pictured.includes(axes.across) ? axes.across : first_across);
   const mark = (point) => {
     for (const { here, place } of pictures) {
       const [x, y] = place(point);

@@ -1,6 +1,7 @@
-// What the page knows of the run.
-const data = JSON.parse(document.getElementById('data').textContent);
+// What the page knows of the run: `data`, which is an argument of all this, as `before` is: what a reader saw of another
+// run whose place this one takes, if there was one.
 const { points, shapes, events, columns } = data;
+const closing = new AbortController();  // for what listens beyond the parts of the page
 const element = (id) => document.getElementById(id);
 const svg = (name) => document.createElementNS('http://www.w3.org/2000/svg', name);
 const round = (value, digits) => value === null ? '–' : String(Number(value.toPrecision(digits)));

@@ -26,29 +26,35 @@ const make_list = (items) => items.forEach((item, i) => {
     ArrowUp: focus(i - 1), ArrowLeft: focus(i - 1), Home: focus(0), End: focus(items.length - 1) });
 });
 
-if (shapes.length === 0) return;
+if (shapes.length === 0) return null;
 document.documentElement.classList.add('js');
+const quantity = (key) => quantities.find((one) => one.key === key);
+let axes = { across: quantity(before?.axes.across) ?? first_across, up: quantity(before?.axes.up) ?? load };
 if (typeof Plotly === 'undefined') {
-  chart = picture_chart(go_to);
+  chart = picture_chart(go_to, axes);
 } else {
   element('charts').classList.add('drawn-by-library');
-  chart = plotly_chart(go_to);
+  chart = plotly_chart(go_to, axes);
   on_keys(element('plot'), walk);
 }
 show_forces = forces_panel();
+hide_members(data.members.flatMap(({ name }, m) => before?.hidden.includes(name) ? [m] : []), true);
 shape_tools();
-const choose_for_work = work_panel();
+show_members();
+const choose_for_work = work_panel(axes);
 const choices = [...quantities.slice(1, 1 + columns.length), ...(columns.length > 0 ? [quantities.find(({ key }) => key === 'arc')] : [first_across])];
 if (element('up')) {
   for (const { title } of quantities) element('up').append(new Option(title));
   const there = new Set(choices);
   for (const more of quantities.filter((one) => !there.has(one))) choices.push(more);
   for (const { title } of choices.slice(element('monitor').options.length)) element('monitor').append(new Option(title));
+  element('up').selectedIndex = quantities.indexOf(axes.up);
 }
+element('monitor').selectedIndex = Math.max(choices.indexOf(axes.across), 0);
 const choose = () => {
-  const across = choices[element('monitor').selectedIndex], up = quantities[element('up')?.selectedIndex ?? 0];
-  chart.choose(across, up);
-  choose_for_work(across, up);
+  axes = { across: choices[element('monitor').selectedIndex], up: quantities[element('up')?.selectedIndex ?? 0] };
+  chart.choose(axes.across, axes.up);
+  choose_for_work(axes.across, axes.up);
 };
 for (const id of ['monitor', 'up']) element(id)?.addEventListener('change', choose);
 element('slider').addEventListener('input', (moved) => { stop(); show(Number(moved.target.value)); });
@@ -59,8 +65,35 @@ element('event-after').addEventListener('click', () => go_to_event(1));
 make_list([...document.querySelectorAll('#events tbody tr')]);
 make_list([...document.querySelectorAll('#strip figure')]);
 make_list([...document.querySelectorAll('.tree [data-point]')]);
+
+// What a reader has chosen, for another run of the deck in this one's place.
+const choosers = ['times', 'force', 'force-member'];
+const view = () => {
+  const event = events_at.get(shapes[current].point)?.[0];
+  return {
+    axes: { across: axes.across.key, up: axes.up.key },
+    chosen: choosers.filter(element).map((id) => [id, element(id).value]),
+    hidden: data.members.filter((_, m) => is_hidden(m)).map(({ name }) => name),
+    event: event && { kind: event.kind, number: events.filter(({ kind }) => kind === event.kind).indexOf(event) },
+    part: current / Math.max(shapes.length - 1, 1),
+    walked,
+  };
+};
+// The event that was shown, else as far along the path.
+const shape_as_before = ({ event, part }) => {
+  const same = event && events.filter(({ kind }) => kind === event.kind)[event.number];
+  return same ? shape_near(same.point) : Math.round(part * (shapes.length - 1));
+};
+for (const [id, value] of before?.chosen ?? []) {
+  const choice = element(id);
+  if (!choice || choice.value === value || ![...choice.options].some((option) => option.value === value)) continue;
+  choice.value = value;
+  choice.dispatchEvent(new Event('change'));
+}
+
 const asked_for = /^#point=(\d+)$/.exec(window.location.hash);  // report.html#point=30
 const turning = ['limit-point', 'contact-limit-point', 'branch-point'];
 const opening = asked_for ? Number(asked_for[1]) : events.find((event) => turning.includes(event.kind))?.point ?? 0;
-walked = asked_for !== null;
-show(shape_near(opening));
+walked = before?.walked ?? asked_for !== null;
+show(before ? shape_as_before(before) : shape_near(opening));
+return { view, close: () => { cancelAnimationFrame(playing); closing.abort(); } };

@@ -34,8 +34,8 @@ const work_text = (from, to, shown) => {
     (up === load ? ` Multiplied by the load at λ = 1 this is the work of that load, if ${across.name} is the way of its point along it.` : '') + energy;
 };
 
-const work_panel = () => {
-  let from = null, to = null, shown = { across: first_across, up: load };
+const work_panel = (axes) => {
+  let from = null, to = null, shown = axes;
   const show_work = () => {
     const is_there = from !== null && to !== null && points.branch[from] === points.branch[to];
     element('work').textContent = work_text(from, to, shown);

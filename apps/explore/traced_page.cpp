@@ -1,0 +1,113 @@
+#include "apps/explore/traced_page.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "apps/explore/deck_numbers.hpp"
+#include "apps/output/markup.hpp"
+#include "apps/output/report_html.hpp"
+#include "apps/output/report_parts.hpp"
+#include "apps/output/run_warnings.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "model/session.hpp"
+
+namespace arcwall::explore {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_characters = 2000;  // of a message that a page shows
+
+void give_json(const Json& json, const LineSink& give) {
+  constexpr bool ascii = true;
+  give(json.dump(-1, ' ', ascii, Json::error_handler_t::replace) + "\n");
+}
+
+Json numbers_json(const EditedDeck& deck) {
+  constexpr std::size_t most = 2000;
+  Json list = Json::array();
+  for (const WrittenNumber& number : written_numbers(deck.text, deck.file, most))
+    list.push_back({{"key", number.key},
+                    {"unit", number.unit},
+                    {"value", number.value},
+                    {"whole", number.whole},
+                    {"line", number.position.line},
+                    {"column", number.position.column}});
+  return list;
+}
+
+Json errors_json(const InputError& error) {
+  Json list = Json::array();
+  for (const Diagnostic& one : error.diagnostics())
+    list.push_back({{"line", one.line}, {"text", plain(to_text(one), most_characters)}});
+  return list;
+}
+
+Json warnings_json(const std::vector<std::string>& warnings) {
+  Json list = Json::array();
+  for (const std::string& warning : warnings) list.push_back(plain(warning, most_characters));
+  return list;
+}
+
+std::string progress(const Record& record) {
+  const RecordPoint& last = record.points.back();
+  return fmt::format("tracing branch {}: {} points, λ = {:.5g}", last.branch, record.points.size(), last.lambda);
+}
+
+// Until all branches have ended, or the time is over.
+void trace(Session& run, double most_seconds, const LineSink& give) {
+  constexpr double pause = 0.25;  // of what is said of the progress [s]
+  const auto begin = std::chrono::steady_clock::now();
+  double said = 0.0;
+  while (run.next() != nullptr) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (seconds >= most_seconds) {
+      run.stop({.reason = EndReason::max_time, .detail = round_trip(most_seconds) + " s"});
+      run.next();
+      return;
+    }
+    if (seconds < said + pause || run.record().points.empty()) continue;
+    said = seconds;
+    give_json({{"progress", progress(run.record())}}, give);
+  }
+}
+
+void trace_and_give(const EditedDeck& deck, double most_seconds, const LineSink& give) {
+  Json answer{{"numbers", numbers_json(deck)}};
+  try {
+    Session run({.deck = deck.file, .deck_text = deck.text});
+    if (!run.begin()) throw InputError("there is no equilibrium at the start: " + run.problem());
+    trace(run, most_seconds, give);
+    const Record& record = run.record();
+    if (record.points.empty()) throw InputError("there is no equilibrium at the start");
+    const ReportContent content = report_content(run.model(), record, scenes_to_draw(run.model(), record));
+    answer["warnings"] = warnings_json(run_warnings(run.model(), record));
+    answer["page"] = ReportPage(record, content, {.page = report_parts().page}).text();
+  } catch (const InputError& error) {
+    answer["errors"] = errors_json(error);
+  }
+  give_json(answer, give);
+}
+
+Json problem_json(const std::string& problem) { return {{"errors", Json::array({{{"line", 0}, {"text", problem}}})}}; }
+
+}  // namespace
+
+void trace_to_page(const EditedDeck& deck, double most_seconds, const LineSink& give) {
+  try {
+    trace_and_give(deck, most_seconds, give);
+  } catch (const InputError& error) {
+    give_json({{"errors", errors_json(error)}}, give);
+  } catch (const std::bad_alloc&) {
+    give_json(problem_json("memory ran out; use fewer elements"), give);
+  } catch (const std::exception& problem) {
+    give_json(problem_json(std::string("internal error: ") + problem.what()), give);
+  }
+}
+
+}  // namespace arcwall::explore

@@ -1,0 +1,348 @@
+// The page of `trace-path explore`: the text of a deck that its reader changes, and the report of the run of that text.
+'use strict';
+(async () => {
+
+const element = (id) => document.getElementById(id);
+const made = (name, properties = {}, ...children) => {
+  const one = Object.assign(document.createElement(name), properties);
+  one.append(...children);
+  return one;
+};
+const say = (text) => { element('status').textContent = text; };
+
+const deck = await (await fetch('deck')).json();
+
+// --- the text, and the numbers in it ---------------------------------------------------------------------------------
+
+let text = deck.text;      // all that the reader changes
+let numbers = [];          // those of `numbers_of`, each with its key, unit, value, line and column
+let numbers_of = null;     // a text
+let first_numbers = null;  // of the deck as it was read, by their keys
+let undone = [];           // texts, the last change last
+const shown = new Map();   // keys of sliders, in their order, with the parts of the page
+
+// Columns count characters, as the program does.
+const literal = /^[+-]?(?:inf|nan|0x[0-9a-fA-F_]+|0o[0-7_]+|0b[01_]+|[0-9][0-9_]*(?:\.[0-9_]+)?(?:[eE][+-]?[0-9_]+)?)/;
+const replaced = (of, { line, column }, value) => {
+  const lines = of.split('\n'), characters = [...lines[line - 1]];
+  const before = characters.slice(0, column - 1).join(''), behind = characters.slice(column - 1).join('');
+  const [old] = literal.exec(behind) ?? [''];
+  lines[line - 1] = before + value + behind.slice(old.length);
+  return { text: lines.join('\n'), longer: value.length - old.length };
+};
+const set_number = (number, value) => {
+  const { text: changed, longer } = replaced(text, number, value);
+  text = numbers_of = changed;
+  number.value = Number(value);
+  for (const other of numbers)
+    if (other.line === number.line && other.column > number.column) other.column += longer;
+  element('text').value = text;
+};
+const number_at = (key) => numbers_of === text ? numbers.find((number) => number.key === key) : undefined;
+
+const remember = (before) => {
+  if (undone.at(-1) !== before) undone.push(before);
+  element('undo').disabled = element('reset').disabled = false;
+};
+const go_back_to = (before) => {
+  text = before;
+  element('text').value = text;
+  element('undo').disabled = undone.length === 0;
+  element('reset').disabled = text === deck.text;
+  trace_now();
+};
+
+// --- sliders ---------------------------------------------------------------------------------------------------------
+
+const as_text = (value) => String(value);
+// The range that a slider has at first, and its step: a round part of it.
+const range_about = ({ value, whole }) => {
+  const size = value === 0 ? 1 : Math.abs(value) / 2;
+  return whole ? [value - Math.max(Math.ceil(size), 1), value + Math.max(Math.ceil(size), 1)] : [value - size, value + size];
+};
+const step_of = (low, high, whole) => whole ? 1 : 10 ** Math.floor(Math.log10((high - low) / 200));
+const rounded = (value, step) => Number((Math.round(value / step) * step).toPrecision(12));
+
+const add_slider = (key) => {
+  const number = number_at(key);
+  if (!number || shown.has(key)) return;
+  let before = null;  // the text before a drag
+  const name = made('label', { textContent: key, htmlFor: `field ${key}` });
+  if (number.unit !== '') name.append(made('span', { className: 'unit', textContent: ` [${number.unit}]` }));
+  const field = made('input', { type: 'text', inputMode: 'decimal', id: `field ${key}` });
+  const remove = made('button', { type: 'button', className: 'remove', textContent: '×', title: `Remove ${key}` });
+  remove.setAttribute('aria-label', `Remove ${key}`);
+  const slider = made('input', { type: 'range', step: 'any' });
+  slider.setAttribute('aria-label', `${key}, slider`);
+  const ends = range_about(number);
+  const [low, high] = ['lowest', 'highest'].map((which, i) => {
+    const end = made('input', { type: 'text', inputMode: 'decimal', value: as_text(rounded(ends[i], step_of(...ends, number.whole))) });
+    end.setAttribute('aria-label', `${which} value of ${key}`);
+    return end;
+  });
+  const step = () => step_of(Number(low.value), Number(high.value), number_at(key)?.whole && Number.isInteger(Number(low.value)));
+  const set_ends = () => {
+    if (!(Number(low.value) < Number(high.value))) return;
+    [slider.min, slider.max] = [low.value, high.value];
+    slider.step = as_text(step());
+    slider.value = field.value;
+  };
+  const change = (value) => {
+    const now = number_at(key);
+    if (!now || as_text(now.value) === value) return;
+    before ??= text;
+    set_number(now, value);
+    trace_next();
+  };
+  slider.addEventListener('input', () => {
+    field.value = as_text(rounded(Number(slider.value), step()));
+    change(field.value);
+  });
+  slider.addEventListener('change', () => {
+    if (before !== null) remember(before);
+    before = null;
+    trace_now();
+  });
+  field.addEventListener('change', () => {
+    if (field.value.trim() === '' || !Number.isFinite(Number(field.value))) return show_number();
+    const was = text;
+    change(as_text(Number(field.value)));
+    before = null;
+    slider.value = field.value;
+    if (text !== was) remember(was);
+    trace_now();
+  });
+  for (const end of [low, high]) end.addEventListener('change', set_ends);
+  // The number as it stands in the text, or none where it does not.
+  const show_number = () => {
+    const now = number_at(key);
+    slider.disabled = field.disabled = !now;
+    if (!now) return;
+    field.value = as_text(now.value);
+    slider.value = field.value;
+  };
+  const box = made('div', { className: 'number' }, name, field, remove, slider, made('div', { className: 'ends' }, low, high));
+  box.dataset.key = key;
+  remove.addEventListener('click', () => {
+    shown.delete(key);
+    box.remove();
+    list_keys();
+  });
+  shown.set(key, { show_number });
+  element('sliders').append(box);
+  show_number();
+  set_ends();
+  list_keys();
+};
+
+const list_keys = () => {
+  const most = 60, part = element('find').value.trim().toLowerCase();
+  const all = numbers.filter(({ key }) => !shown.has(key) && key.toLowerCase().includes(part));
+  element('found').replaceChildren(...all.slice(0, most).map(({ key, value, unit }) => {
+    const button = made('button', { type: 'button', title: `A slider for ${key}` }, key,
+      made('span', { textContent: unit === '' ? as_text(value) : `${value} ${unit}` }));
+    button.addEventListener('click', () => add_slider(key));
+    return made('li', {}, button);
+  }));
+  if (all.length > most) element('found').append(made('li', { textContent: `and ${all.length - most} more; give a part of the key` }));
+};
+
+const take_numbers = (list, of) => {
+  if (of === text) [numbers, numbers_of] = [list, of];
+  if (first_numbers === null && of === deck.text) first_numbers = new Map(list.map((number) => [number.key, { ...number }]));
+  if (shown.size === 0 && !take_numbers.once)
+    for (const { key } of list) if (key.startsWith('variables.')) add_slider(key);
+  take_numbers.once = true;
+  for (const { show_number } of shown.values()) show_number();
+  list_keys();
+};
+
+// --- traces ----------------------------------------------------------------------------------------------------------
+
+let running = null;  // what ends the trace that is under way, and its text
+let traced = null;   // the text whose answer is shown
+let last = null;     // the last answer with a page, and the report that shows it
+let report = null;
+
+const lines_of = async function* (body) {
+  const decoder = new TextDecoder();
+  let rest = '';
+  for (const reader = body.getReader();;) {
+    const { done, value } = await reader.read();
+    if (done) return;
+    const parts = (rest + decoder.decode(value, { stream: true })).split('\n');
+    rest = parts.pop();
+    yield* parts.map((line) => JSON.parse(line));
+  }
+};
+
+// While a slider moves a trace that has begun goes on, so that there is something to see: the next one has the latest text.
+const trace_next = () => {
+  if (running === null && text !== traced) trace_text();
+};
+// A trace of another text is ended.
+const trace_now = () => {
+  if (running !== null && running.text !== text) running.control.abort();
+  trace_next();
+};
+
+const trace_text = async () => {
+  const of = text, control = new AbortController();
+  running = { text: of, control };
+  let ended = false;
+  try {
+    const answer = await fetch('trace', { method: 'POST', body: of, signal: control.signal })
+      .catch(() => { throw new Error('trace-path has ended'); });
+    if (!answer.ok) throw new Error(await answer.text());
+    for await (const line of lines_of(answer.body)) {
+      if (line.progress !== undefined) {
+        element('result').classList.add('old');
+        say(line.progress);
+        continue;
+      }
+      ended = true;
+      traced = of;
+      show_answer(line, of);
+    }
+    if (!ended) throw new Error('trace-path has ended');
+  } catch (problem) {
+    if (!control.signal.aborted) say(`There is no result: ${problem.message}.`);
+  }
+  running = null;
+  if (text !== of) trace_text();
+};
+
+const signals = new Map([[9, 'a limit of memory or time ended the trace'], [24, 'the limit of time ended the trace']]);
+const show_answer = (answer, of) => {
+  if (answer.killed !== undefined)
+    return show_problems([{ line: 0, text: signals.get(answer.killed) ?? `the trace was ended by signal ${answer.killed}` }]);
+  if (answer.numbers) take_numbers(answer.numbers, of);
+  if (answer.errors) return show_problems(answer.errors);
+  show_problems([]);
+  element('warnings').replaceChildren(...answer.warnings.map((warning) => made('li', { textContent: warning })));
+  last = { page: answer.page, text: of };
+  show_page();
+  element('result').dataset.text = of;
+};
+
+const show_problems = (problems) => {
+  element('result').classList.toggle('old', problems.length > 0);
+  say(problems.length === 0 ? '' : problems.length === 1 ? 'The deck has an error.' : `The deck has ${problems.length} errors.`);
+  element('errors').replaceChildren(...problems.map(({ line, text: words }) => {
+    const item = made('li');
+    if (line > 0) {
+      const button = made('button', { type: 'button', textContent: `line ${line}` });
+      button.addEventListener('click', () => select_line(line));
+      item.append(button, ' ');
+    }
+    item.append(words);
+    return item;
+  }));
+};
+
+const select_line = (line) => {
+  const area = element('text'), lines = text.split('\n');
+  const from = lines.slice(0, line - 1).join('\n').length + (line > 1 ? 1 : 0);
+  element('deck-panel').open = true;
+  area.focus();
+  area.setSelectionRange(from, from + lines[line - 1].length);
+  area.scrollTop = (line - 4) * area.scrollHeight / lines.length;
+};
+
+// The report of a run in the place of the one before. It has no scripts of its own.
+const show_page = () => {
+  const page = new DOMParser().parseFromString(last.page, 'text/html');
+  const data = JSON.parse(page.getElementById('data').textContent);
+  const before = report?.view();
+  report?.close();
+  report = null;
+  data.overlays = pins;
+  document.title = page.title;
+  element('result').replaceChildren(...['header', 'main'].map((part) => document.adoptNode(page.querySelector(part))));
+  report = show_report(data, before);
+  last.data = data;
+};
+
+// --- pins, undo, the text, files ---------------------------------------------------------------------------------------
+
+const pin_colours = ['#8C6BB1', '#B15928', '#7F8C3A', '#C2477F', '#4E79A7', '#999999'];
+let pins = [], pinned = 0;
+
+// The numbers that differ from the deck as it was read, as `--set` has them.
+const differences = (list) => list.filter(({ key, value }) => first_numbers?.get(key)?.value !== value);
+const settings = () => numbers_of === text ? differences(numbers).map(({ key, value }) => `${key}=${as_text(value)}`) : [];
+
+const pin_curve = () => {
+  if (last === null) return;
+  const { points, columns } = last.data;
+  const values = Object.fromEntries(['lambda', 'arc', 'energy', 'contacts', 'unstable', 'step'].map((key) => [key, points[key]]));
+  columns.forEach(({ name }, i) => { values[name] = points.monitors[i]; });
+  const firsts = points.branch.flatMap((branch, i) => i === 0 || branch !== points.branch[i - 1] ? [i] : []);
+  const name = settings().join(', ') || (text === deck.text ? 'as read' : 'edited text');
+  pins.push({ name: `pin ${++pinned}: ${name}`, measured: false, colour: pin_colours[(pinned - 1) % pin_colours.length], firsts, values });
+  list_pins();
+};
+const list_pins = () => {
+  element('pins').replaceChildren(...pins.map((pin) => {
+    const swatch = made('span', { className: 'swatch' }), remove = made('button', { type: 'button', textContent: '×' });
+    swatch.style.borderColor = pin.colour;
+    remove.setAttribute('aria-label', `Remove ${pin.name}`);
+    remove.addEventListener('click', () => {
+      pins = pins.filter((one) => one !== pin);
+      list_pins();
+    });
+    return made('li', {}, swatch, made('span', { textContent: pin.name }), remove);
+  }));
+  if (last !== null) show_page();
+};
+
+const quoted = (word) => /^[\w.,=/+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+// The command that traces this text, or why there is none.
+const command = () => {
+  if (text === deck.text) return `trace-path run ${quoted(deck.file)}`;
+  let changed = deck.text;
+  const by_place = numbers_of === text ? differences(numbers) : [];
+  const places = by_place.flatMap(({ key, value }) => first_numbers?.has(key) ? [{ ...first_numbers.get(key), value }] : []);
+  places.sort((a, b) => b.line - a.line || b.column - a.column);  // from behind: the places before stay
+  for (const place of places) changed = replaced(changed, place, as_text(place.value)).text;
+  if (changed !== text) return null;
+  return `trace-path run ${quoted(deck.file)}${settings().map((setting) => ` --set ${quoted(setting)}`).join('')}`;
+};
+
+element('undo').addEventListener('click', () => { if (undone.length > 0) go_back_to(undone.pop()); });
+element('reset').addEventListener('click', () => {
+  remember(text);
+  go_back_to(deck.text);
+});
+element('pin').addEventListener('click', pin_curve);
+element('find').addEventListener('input', list_keys);
+element('text').addEventListener('input', () => {
+  remember(text);
+  text = element('text').value;
+  for (const { show_number } of shown.values()) show_number();
+  trace_now();
+});
+element('save-deck').addEventListener('click', () => {
+  const link = made('a', { href: URL.createObjectURL(new Blob([text], { type: 'application/toml' })), download: deck.file.split('/').at(-1) });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+});
+element('command').addEventListener('click', async () => {
+  const words = command();
+  element('copied').textContent = words ?? 'The text has other changes than of numbers: save the deck, and run that file.';
+  if (words !== null) await navigator.clipboard?.writeText(words).catch(() => {});
+});
+
+// The program ends when no page is open; where it has ended, the page says so.
+const open = new EventSource('open');
+open.addEventListener('error', () => {
+  open.close();
+  say('trace-path has ended. The page still saves the deck.');
+});
+
+element('file').textContent = deck.file;
+element('text').value = text;
+element('undo').disabled = element('reset').disabled = true;
+say('tracing …');
+trace_text();
+})();

@@ -1,0 +1,288 @@
+// Drives Chromium through the page that trace-path explore serves: node explore_in_browser.mjs TRACE_PATH EXAMPLES CHROMIUM
+import assert from 'node:assert/strict';
+import { execFileSync, spawn } from 'node:child_process';
+import { mkdtempSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { request } from 'node:http';
+import { join } from 'node:path';
+import { afterEach, test } from 'node:test';
+import { examples, folder, open, phone, report_of, saved, trace_path } from './browser.mjs';
+import { hostile_decks } from './hostile_decks.mjs';
+
+const upper = 'wall.upper.profile.z';
+const channel_text = readFileSync(join(examples, 'channel.toml'), 'utf8');
+
+const servers = [];
+// The program in a folder of its own, which has the deck alone.
+const explore = async (text = channel_text, name = 'deck.toml') => {
+  const home = mkdtempSync(join(folder, 'explore-'));
+  writeFileSync(join(home, name), text);
+  const server = spawn(trace_path, ['explore', name, '--no-browser'], { cwd: home, stdio: ['ignore', 'pipe', 'ignore'] });
+  servers.push(server);
+  const ended = new Promise((resolve) => server.on('exit', (status, signal) => resolve({ status, signal })));
+  const address = await new Promise((resolve, reject) => {
+    server.stdout.once('data', (line) => resolve(String(line).trim()));
+    ended.then(() => reject(new Error('the program ended')));
+  });
+  return { address, home, server, ended };
+};
+afterEach(() => { for (const server of servers.splice(0)) server.kill('SIGKILL'); });
+
+// What the page shows is of this text.
+const shows = (page, text) => page.waitForFunction((of) => document.getElementById('result').dataset.text === of &&
+  !document.getElementById('result').classList.contains('old'), text, { polling: 5 });
+const text_of = (page) => page.inputValue('#text');
+const settled = async (page) => shows(page, await text_of(page));
+const opened = async (address, options) => {
+  const one = await open(address, options);
+  await settled(one.page);
+  return one;
+};
+
+const parts = ['#events', '#jumps', '#strip', 'header'];
+const tables = (page) => page.evaluate((all) => all.map((part) => document.querySelector(`#result ${part}`)?.textContent), parts);
+// Those of a page that `run` has written.
+const tables_of_run = (page, file) => page.evaluate(({ text, all }) => {
+  const run = new DOMParser().parseFromString(text, 'text/html');
+  return all.map((part) => run.querySelector(part)?.textContent);
+}, { text: readFileSync(file, 'utf8'), all: parts });
+
+const edit = async (page, text) => {
+  await page.$eval('#deck-panel', (panel) => { panel.open = true; });
+  await page.fill('#text', text);
+};
+const add = (page, key) => page.locator('#found button', { hasText: key }).first().click();
+const move = (page, key, value) => page.locator(`.number[data-key="${key}"] input[type=range]`).evaluate((slider, to) => {
+  slider.value = to;
+  slider.dispatchEvent(new Event('input'));
+}, value);
+const release = (page, key) => page.locator(`.number[data-key="${key}"] input[type=range]`).dispatchEvent('change');
+
+const processes_of = (server) => readFileSync(`/proc/${server.pid}/task/${server.pid}/children`, 'utf8').trim();
+const until = async (is_so, what) => {
+  for (let i = 0; i < 1000; ++i) {
+    if (await is_so()) return;
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
+  assert.fail(what);
+};
+
+test('thirty values of the gap: the tables are those of run', async (context) => {
+  const { address, home } = await explore();
+  const { page, finish } = await opened(address);
+  await add(page, upper);
+  const latencies = [];
+  for (let i = 0; i < 30; ++i) {
+    const gap = String(Number((0.15 + 0.1 * ((7 * i) % 30) / 29).toFixed(3)));
+    const begin = performance.now();
+    await move(page, upper, gap);
+    await settled(page);
+    latencies.push(performance.now() - begin);
+    assert.equal(await page.inputValue(`.number[data-key="${upper}"] input[type=text]`), gap);
+    const report = report_of(join(home, 'deck.toml'), `gap${i}`, ['--set', `${upper}=${gap}`, '--scratch']);
+    assert.deepEqual(await tables(page), await tables_of_run(page, report), `gap ${gap}`);
+    const { events } = JSON.parse(readFileSync(join(folder, `gap${i}`, 'events.json'), 'utf8'));
+    const limit = events.find(({ kind }) => kind === 'limit-point');
+    const shown = await page.locator('#events tbody tr', { hasText: 'limit point' }).first().locator('td').nth(3).textContent();
+    assert.equal(Number(shown), Number(limit.lambda.toPrecision(shown.replace(/[-.]|^0+/g, '').length)), 'λ of events.json');
+  }
+  context.diagnostic(`latency: median ${Math.round(latencies.sort((a, b) => a - b)[15])} ms, greatest ${Math.round(latencies[29])} ms`);
+  await finish();
+});
+
+test('pins, undo, reset, the command and the saved deck', async () => {
+  const { address, home } = await explore();
+  const { page, finish } = await opened(address);
+  await add(page, upper);
+  await page.locator('#monitor').selectOption({ index: 1 });
+  await page.click('#pin');
+  for (const value of ['0.23', '0.25', '0.27']) await move(page, upper, value);
+  await release(page, upper);
+  await page.fill(`.number[data-key="${upper}"] input[type=text]`, '0.21');
+  await page.keyboard.press('Enter');
+  await settled(page);
+  assert.match(await text_of(page), /z = 0\.21 }/);
+  assert.equal(await page.locator('#monitor').inputValue(), 'shortening [cm]', 'the axes stay');
+  const pinned = await page.evaluate(() => document.getElementById('plot').data.filter(({ line }) => line?.color === '#8C6BB1').length);
+  assert.equal(pinned, 1, 'the pinned curve is drawn');
+  await page.click('#pin');
+  assert.match(await page.textContent('#pins'), /pin 1: as read.*pin 2: wall\.upper\.profile\.z=0\.21/s);
+
+  await page.click('#command');
+  const command = await page.textContent('#copied');
+  assert.equal(command, `trace-path run deck.toml --set ${upper}=0.21`);
+  execFileSync(trace_path, [...command.split(' ').slice(1), '--out', 'out', '--quiet', '--force'], { cwd: home });
+  assert.deepEqual(await tables(page), await tables_of_run(page, join(home, 'out', 'report.html')));
+  const [name, bytes] = await saved(page, '#save-deck');
+  assert.equal(name, 'deck.toml');
+  assert.equal(String(bytes), channel_text.replace('z = 0.2 }', 'z = 0.21 }'));
+
+  await page.click('#undo');
+  assert.match(await text_of(page), /z = 0\.27 }/, 'a drag is one change');
+  await page.click('#undo');
+  assert.equal(await text_of(page), channel_text);
+  await settled(page);
+  await edit(page, channel_text.replace('Buckling in', 'Another'));
+  await settled(page);
+  assert.equal(await page.textContent('#result h1'), 'Another a channel');
+  await page.click('#command');
+  assert.match(await page.textContent('#copied'), /save the deck/);
+  await page.click('#reset');
+  assert.equal(await text_of(page), channel_text);
+  await settled(page);
+  await finish();
+});
+
+test('the variables of a deck come first; numbers on one line keep their places', async () => {
+  const text = channel_text.replace('z = 0.2 }', 'z = "gap / 2" }').replace('z = -0.2 }', 'z = "-gap / 2" }')
+    .replace('lambda = [-1.0, 9.0]', 'lambda = [ -1.0 , 9.0 ] # 💣 é') +
+    '\n[variables]\ngap = 0.4\n';
+  const { address } = await explore(text);
+  const { page, finish } = await opened(address);
+  assert.deepEqual(await page.locator('.number').evaluateAll((all) => all.map(({ dataset }) => dataset.key)), ['variables.gap']);
+  await add(page, 'path.stop.lambda.0');
+  await add(page, 'path.stop.lambda.1');
+  await move(page, 'path.stop.lambda.0', '-1.25');
+  await move(page, 'path.stop.lambda.1', '7.5');
+  await move(page, 'path.stop.lambda.0', '-0.5');
+  await move(page, 'variables.gap', '0.46');
+  await settled(page);
+  assert.equal(await text_of(page), text.replace('[ -1.0 , 9.0 ]', '[ -0.5 , 7.5 ]').replace('gap = 0.4\n', 'gap = 0.46\n'));
+  assert.match(await page.textContent('#result .outcome'), /lambda = 7.5/);
+  await finish();
+});
+
+test('a deck with errors: as check says, at their lines', async () => {
+  const wrong = channel_text.replace('elements = 40', 'elements = -4').replace('side = "below"', 'side = "beneath"');
+  const { address, home } = await explore(wrong);
+  const { page, finish } = await open(address);
+  await page.waitForSelector('#errors li');
+  let said = '';
+  try {
+    execFileSync(trace_path, ['check', 'deck.toml'], { cwd: home, stdio: ['ignore', 'ignore', 'pipe'] });
+  } catch (failure) {
+    said = String(failure.stderr);
+  }
+  const errors = await page.locator('#errors li').evaluateAll((all) => all.map((item) => item.lastChild.textContent));
+  assert.equal(errors.map((error) => `error: ${error}\n`).join(''), said);
+  assert.equal(errors.length, 2);
+  await page.locator('#errors button').first().click();
+  const selected = await page.$eval('#text', (area) => area.value.slice(area.selectionStart, area.selectionEnd));
+  assert.equal(selected, 'elements = -4');
+  await edit(page, channel_text);
+  await settled(page);
+  assert.equal(await page.locator('#errors li').count(), 0);
+  await edit(page, `${channel_text}\n[`);
+  await page.waitForSelector('#errors li');
+  assert.ok(await page.$eval('#result', (result) => result.classList.contains('old')), 'the last result is greyed');
+  await finish();
+});
+
+const answer_to = (address, path, headers = {}, method = 'GET', body = '') => new Promise((resolve, reject) => {
+  const { hostname, port, pathname } = new URL(address);
+  const sent = request({ hostname, port, path: path ?? pathname, method, headers }, (response) => {
+    let text = '';
+    response.on('data', (part) => { text += part; });
+    response.on('end', () => resolve({ status: response.statusCode, headers: response.headers, text }));
+  });
+  sent.on('error', reject);
+  sent.end(body);
+});
+
+test('who has no right gets 403', async () => {
+  const { address } = await explore();
+  const { pathname, host, port } = new URL(address);
+  const status = async (...request) => (await answer_to(address, ...request)).status;
+  assert.equal(await status(), 200);
+  assert.match(pathname, /^\/[0-9a-f]{32}\/$/);
+  for (const path of ['/', '/deck', `/${'0'.repeat(32)}/`, `/${'0'.repeat(32)}/deck`, pathname.slice(0, -1), `/x${pathname}`])
+    assert.equal(await status(path), 403, path);
+  for (const wrong of ['evil.example', `localhost:${port}`, '127.0.0.1', `${host}.evil.example`])
+    assert.equal(await status(pathname, { host: wrong }), 403, wrong);
+  for (const wrong of ['http://evil.example', 'null', `https://${host}`, `http://localhost:${port}`])
+    for (const method of ['GET', 'POST'])
+      assert.equal(await status(`${pathname}trace`, { origin: wrong }, method, channel_text), 403, wrong);
+  assert.equal(await status(`${pathname}nothing`), 404);
+  assert.equal(await status(`${pathname}deck`, {}, 'PUT'), 405);
+  const { headers } = await answer_to(address);
+  assert.match(headers['content-security-policy'], /default-src 'none'; script-src 'self';/);
+  assert.equal(headers['x-content-type-options'], 'nosniff');
+});
+
+test('cancelled runs leave nothing; the program ends with its page', async () => {
+  const slow = channel_text.replace('elements = 40', 'elements = 3000').replace('step = 0.05', 'step = 0.001');
+  const { address, home, server, ended } = await explore(slow);
+  const { page, finish } = await open(address);
+  await page.waitForFunction(() => /\d+ points/.test(document.getElementById('status').textContent));
+  const first = processes_of(server);
+  assert.match(first, /^\d+$/, 'one process traces');
+  await edit(page, slow.replace('step = 0.001', 'step = 0.002'));
+  await until(() => !processes_of(server).split(' ').includes(first), 'the older process ends');
+  const second = await open(address);
+  await until(() => processes_of(server).split(' ').length === 2, 'two pages trace at once');
+  await second.finish();
+  await until(() => /^\d+$/.test(processes_of(server)), 'a page that closes ends its trace');
+  await edit(page, channel_text);
+  await settled(page);
+  assert.equal(processes_of(server), '');
+  assert.deepEqual(readdirSync(home), ['deck.toml'], 'no file is written');
+  await edit(page, slow);
+  await until(() => processes_of(server) !== '', 'it traces again');
+  const last = processes_of(server);
+  await finish();
+  assert.deepEqual(await ended, { status: 0, signal: null });
+  assert.throws(() => process.kill(Number(last), 0), /ESRCH/);
+
+  const killed = await explore(slow);
+  const { page: other } = await open(killed.address);
+  await until(() => processes_of(killed.server) !== '', 'it traces');
+  const child = Number(processes_of(killed.server));
+  killed.server.kill('SIGKILL');
+  await until(() => { try { process.kill(child, 0); return /^State:\s+Z/m.test(readFileSync(`/proc/${child}/status`, 'utf8')); } catch { return true; } }, 'a killed program takes its trace along');
+  await other.waitForFunction(() => /trace-path has ended/.test(document.getElementById('status').textContent));
+  await other.context().close();
+
+  const interrupted = await explore();
+  interrupted.server.kill('SIGINT');
+  assert.deepEqual(await interrupted.ended, { status: 0, signal: null });
+});
+
+test('two hundred hostile texts', async () => {
+  const { address, home, server } = await explore();
+  const { pathname } = new URL(address);
+  let seed = 1;
+  const random = (below) => (seed = (seed * 48271) % 2147483647) % below;
+  const pieces = ['"', '\'\'\'', '[', ']]', '{', '= ', '\u0000', '\ud800', '💣', '\n', '1e999', '-', '0x', 'nan', '#', '[[wall]]\n', '<script>'];
+  for (let i = 0; i < 200; ++i) {
+    const at = random(channel_text.length), piece = pieces[random(pieces.length)];
+    const text = channel_text.slice(0, at) + piece.repeat(1 + random(3)) + channel_text.slice(at + random(20));
+    const { status, text: answer } = await answer_to(address, `${pathname}trace`, {}, 'POST', text);
+    assert.equal(status, 200);
+    const last = JSON.parse(answer.trim().split('\n').at(-1));
+    assert.ok(last.page !== undefined || last.errors?.length > 0, `${JSON.stringify(text)}: ${answer.slice(0, 200)}`);
+  }
+  const { page, finish } = await opened(address);
+  for (const deck of hostile_decks(false).filter(({ toml }) => toml).slice(0, 12)) {
+    await edit(page, deck.toml);
+    await page.waitForFunction(() => document.getElementById('result').dataset.text === document.getElementById('text').value ||
+      document.querySelector('#errors li') !== null);
+    const found = await page.evaluate(() => ({
+      touched: window.touched,
+      alien: [...document.querySelectorAll('img, iframe, object, embed, form, marquee, a, foreignObject, base, main style')]
+        .filter((one) => !one.closest('.modebar')).map((one) => one.outerHTML.slice(0, 200)),
+      handlers: [...document.querySelectorAll('*')].flatMap((one) => one.getAttributeNames()).filter((name) => name.startsWith('on')),
+      scripts: document.scripts.length,
+    }));
+    assert.deepEqual(found, { touched: undefined, alien: [], handlers: [], scripts: 3 }, deck.toml.slice(0, 300));
+  }
+  assert.deepEqual(readdirSync(home), ['deck.toml']);
+  assert.equal(server.exitCode, null);
+  await finish();
+});
+
+test('on a telephone nothing is cut', async () => {
+  const { address } = await explore();
+  const { page, finish } = await opened(address, { viewport: phone });
+  await add(page, upper);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= phone.width);
+  await finish();
+});
