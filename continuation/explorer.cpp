@@ -64,9 +64,9 @@ bool mirror_images(const std::vector<TriedWay>& ways) {
   return nearly_equal(a.lambda, b.lambda) && nearly_equal(ways[0].energy, ways[1].energy);
 }
 
-// Whether the structure follows a way off a stable branch while λ goes on: else it jumps.
-bool is_followed(const BranchPoint& point, const TriedWay& way) {
-  return way.count.unstable == Index{0} && (way.step.state.lambda - point.state.lambda) * point.along.dlambda > 0.0;
+// Whether the structure follows a way off a stable branch, along which λ goes on as the load does: else it jumps.
+bool is_followed(const BranchPoint& point, const TriedWay& way, double first_step) {
+  return way.count.unstable == Index{0} && (way.step.state.lambda - point.state.lambda) * first_step > 0.0;
 }
 
 // The event at which a stable structure loses its stability; of several the one at which λ turns or branches meet.
@@ -299,7 +299,9 @@ void Explorer::leave(const Event& event, const BranchPoint& point, const std::ve
   };
   const TriedWay& best = *std::min_element(ways.begin(), ways.end(),
                                            [&](const TriedWay& a, const TriedWay& b) { return rank(a) < rank(b); });
-  if (options_.policy == BranchPolicy::jump && event.unstable_before == Index{0} && !is_followed(point, best)) return;
+  if (options_.policy == BranchPolicy::jump && event.unstable_before == Index{0} &&
+      !is_followed(point, best, trace_.step.first))
+    return;
   enqueue(event, start_along(event, best), best.sign, mirror_image);
   const auto next = static_cast<int>(branches_.size());
   tracer_->stop(

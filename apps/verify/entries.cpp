@@ -51,8 +51,8 @@ double curvature_error(const ElementBeside& beside, int places) {
   const auto ends = at.mesh.end_forces(strand, position, at.now);
   const Vec2 first = beside.place(0.0).position, chord = beside.place(1.0).position - first;
   const auto load_at = [&](Index end) -> Vec2 {
-    return length * at.body.load({.strand = strand, .s = beside.coordinate(end)}, beside.place(double(end)),
-                                 chord.norm() / length, at.now.lambda);
+    return length * beside.at.body.load({.strand = beside.strand, .s = beside.coordinate(end)},
+                                        beside.place(double(end)), chord.norm() / length, beside.at.now.lambda);
   };
   const Vec2 first_load = load_at(0), second_load = load_at(1);
   const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };

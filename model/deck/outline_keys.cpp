@@ -167,8 +167,8 @@ void outline_keys(Keys& keys, Wall& wall) {
   const bool is_list = !keys.lists() && (keys.reads() ? keys.holds_array("corner_radius") : !wall.corner_radii.empty());
   const bool right = is_list ? keys.numbers(optional("corner_radius"), wall.corner_radii, unit::length, "")
                              : keys.number(optional("corner_radius"), wall.corner_radius, unit::length, not_negative,
-                                           "radius of rounded corners of a polyline, or an array with one for each "
-                                           "corner in turn; 0: sharp");
+                                           "radius of rounded corners of a polyline, or an array with one per corner; "
+                                           "0: sharp");
   if (right && std::any_of(wall.corner_radii.begin(), wall.corner_radii.end(), [](double r) { return r < 0.0; }))
     return keys.report("corner_radius", "must be at least 0", "give radii that are not negative");
   if (!right && keys.has("corner_radius")) return;
