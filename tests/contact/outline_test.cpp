@@ -141,7 +141,9 @@ TEST(Outline, HasARadiusOfItsOwnAtEachCorner) {
       const double gap = far - radii[i];
       EXPECT_NEAR(box->foot(centre + far * outwards.normalized()).distance, keep == Keep::outside ? gap : -gap, 1e-14);
     }
-    if (keep == Keep::inside) EXPECT_NEAR(box->sharpest_hollow(), 10.0, 1e-12);
+    if (keep == Keep::inside) {
+      EXPECT_NEAR(box->sharpest_hollow(), 10.0, 1e-12);
+    }
   }
 }
 
