@@ -123,6 +123,9 @@ class Model {
   /// Returns the end state of the previous stage as the start of this one.
   State taken_over(const State& last) const;
 
+  /// Returns true if supports leave the structure rigid-body motions, which contact alone restrains.
+  bool is_loose() const { return !loose_holds_.empty(); }
+
   /// Returns the message if a body without supports has moved away from its contacts; else empty.
   std::optional<std::string> adrift(const State& state) const;
 

@@ -74,31 +74,31 @@ double displacement_of_first_step(const Model& model, const Record& record) {
   return second.branch == first.branch && gone > 0.0 ? std::abs(moved) * std::abs(model.deck().path.step) / gone : 0.0;
 }
 
-bool has_ended_by_itself(const Record& record) {
+bool has_ended_as_asked(const Record& record) {
   return std::all_of(record.branches.begin(), record.branches.end(), [](const RecordBranch& branch) {
-    if (!branch.end) return false;
-    const ExitStatus status = exit_status(branch.end->reason);
-    return status == ExitStatus::success || status == ExitStatus::ended_early;
+    return branch.end && exit_status(branch.end->reason) == ExitStatus::success;
   });
 }
 
 }  // namespace
 
+// A body that only contact holds moves freely before it is held; one that does not move at all, or whose path ends
+// before it is loaded, tells nothing.
 std::string warning_of_units(const Model& model, const Record& record) {
-  constexpr double small = 1e-6, large = 1e6;  // of the size
+  constexpr double small = 1e-6, large = 1e6, roundoff = 1e-14;  // of the size
   const std::string advice =
       ": the units of the deck hardly fit together. Lengths, forces and stresses have to be of one system, as mm, N "
       "and "
       "N/mm², or m, kN and kN/m²";
   if (record.points.size() < 2) return {};
   const double size = model.size();
-  const double step = displacement_of_first_step(model, record) / size;
+  const double step = model.is_loose() ? 0.0 : displacement_of_first_step(model, record) / size;
   if (step > large)
     return fmt::format("a first step of λ as the deck has it would move the structure by {:.1e} times its size", step) +
            advice;
-  if (!has_ended_by_itself(record)) return {};
+  if (!has_ended_as_asked(record)) return {};
   const double part = greatest_displacement(model, record, small * size) / size;
-  return part >= small
+  return part >= small || part <= roundoff
              ? ""
              : fmt::format("the structure has moved by no more than {:.1e} times its size, all along", part) + advice;
 }

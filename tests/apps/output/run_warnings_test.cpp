@@ -86,6 +86,31 @@ max_points = 5
   EXPECT_EQ(result["warnings"].back(), warning_of_units(still.model(), still.record()));
 }
 
+// A bar that is held at both ends and heated does not move; one that only a wall holds falls 5 mm onto it.
+TEST(RunWarnings, WhatDoesNotMoveOrIsNotHeldTellsNothingOfUnits) {
+  const std::string steel = R"(
+title = "A strip"
+units = { length = "mm", force = "N" }
+material.steel = { E = 2.1e5, expansion = 1.2e-5 }
+section.flat = { shape = "rectangle", width = 20.0, height = 2.0 }
+point = { left = [0.0, 0.0], right = [400.0, 0.0] }
+member.strip = { from = "left", to = "right", theory = "elastica", material = "steel", section = "flat", elements = 8 }
+)";
+  const test::TracedDeck heated(steel + R"(
+support = { left = ["x", "z", "rotation"], right = ["x", "z", "rotation"] }
+load = [{ on = "strip", temperature = 1.0 }]
+path = { step = 0.5, stop = { lambda = [-0.1, 1.0] } }
+)"),
+      falling(steel + R"(
+support = { left = ["x", "rotation"] }
+load = [{ at = "left", force = [0.0, -1000.0] }]
+wall = [{ name = "peg", contact_surface = "axis", outline = { type = "circle", centre = [0.0, -10.0], radius = 5.0 } }]
+path = { step = 0.5, stop = { lambda = [-0.1, 1.0] } }
+)");
+  EXPECT_EQ(warning_of_units(heated.model(), heated.record()), "");
+  EXPECT_EQ(warning_of_units(falling.model(), falling.record()), "");
+}
+
 class RunWarningsTest : public ProgramTest {};
 
 TEST_F(RunWarningsTest, RunPrintsItOnce) {
