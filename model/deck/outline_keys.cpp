@@ -106,9 +106,12 @@ void check_corners(Keys& keys, const Wall& wall, const PolylineOutline& outline)
                        outline.closed ? "give one for each point" : "give one for each point between the ends");
   const std::vector<double> radii = wall.radii();
   const auto taken = [&](const Corner& corner) { return radii[corner.point] * std::tan(0.5 * std::abs(corner.turn)); };
+  const auto name_of = [&](const Corner& corner) {
+    return "the corner at " + text_of_point(outline.points()[corner.point]);
+  };
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner& corner = corners[i];
-    const std::string where = "the corner at " + text_of_point(outline.points()[corner.point]);
+    const std::string where = name_of(corner);
     if (std::abs(corner.turn) > turned_back)
       return keys.report("outline", where + " turns back on itself", "leave a width between the lines");
     const double radius = radii[corner.point];
@@ -119,12 +122,15 @@ void check_corners(Keys& keys, const Wall& wall, const PolylineOutline& outline)
                              "which is not modelled",
                          "give a corner_radius, or make two walls of it");
     const bool has_next = outline.closed || i + 1 < corners.size();
-    const double next = has_next ? taken(corners[(i + 1) % corners.size()]) : 0.0;
+    const Corner& behind = corners[(i + 1) % corners.size()];
+    const double next = has_next ? taken(behind) : 0.0;
     const double first = !outline.closed && i == 0 ? corner.before : infinity;
     if (taken(corner) + next <= corner.behind && taken(corner) <= first) continue;
-    return keys.report("corner_radius",
-                       where + " cannot be rounded with " + round_trip(radius) + ": its lines are too short",
-                       "give a smaller corner_radius");
+    const Corner& wide = next > taken(corner) ? behind : corner;
+    return keys.report(
+        "corner_radius",
+        name_of(wide) + " cannot be rounded with " + round_trip(radii[wide.point]) + ": its lines are too short",
+        "give a smaller corner_radius");
   }
 }
 

@@ -22,7 +22,7 @@ point = { a = [0.0, 0.0], b = [1.0, 0.0] }
 support = { a = ["x", "z", "rotation"] }
 member.c = { from = "a", to = "b", theory = "elastica", elements = 16, material = "m", section = "s" }
 load = [{ at = "b", force = [0.0, 1.0] }]
-path = { step = 0.1, stop = { lambda = [-0.5, 6.0] } }
+path = { step = 0.1, stop = { lambda = [-0.5, 4.0] } }
 monitor = [{ name = "tip", at = "b", component = "z" }]
 [[wall]]
 name = "plateau"
@@ -68,7 +68,7 @@ TEST(CornerRadii, AreOneForEachCorner) {
             "deck.toml:15:17: wall.0.corner_radius: must be at least 0; give radii that are not negative");
   EXPECT_EQ(
       test::said_of(strip_under(plateau("[0.1, 5.0]"))),
-      "deck.toml:15:17: wall.0.corner_radius: the corner at [0.4, 0.08] cannot be rounded with 5.0: its lines are "
+      "deck.toml:15:17: wall.0.corner_radius: the corner at (0.4, 0.08) cannot be rounded with 5.0: its lines are "
       "too short; give a smaller corner_radius");
 }
 

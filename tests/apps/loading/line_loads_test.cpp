@@ -112,8 +112,8 @@ support = { left = ["x", "z"], right = ["x", "z"] }
 load = [{ on = "a", distributed = [0.0, -1e-3], per = "x" }, { on = "b", distributed = [0.0, -1e-3], per = "x" }]
 path = { method = "load", step = 1.0, stop = { lambda = [-0.5, 1.0] } }
 monitor = [{ name = "H", at = "left", component = "reaction-x" }, { name = "V", at = "left", component = "reaction-z" }]
-member.a = { from = "left", to = "crown", axis = { type = "arc", via = [2.3369685, 1.5] }, theory = "elastica", elements = 24, material = "m", section = "s", hinges = ["to"] }
-member.b = { from = "crown", to = "right", axis = { type = "arc", via = [7.6630315, 1.5] }, theory = "elastica", elements = 24, material = "m", section = "s" }
+member.a = { from = "left", to = "crown", via = [2.5, 1.5553287944080996], theory = "elastica", elements = 24, material = "m", section = "s", hinge = ["to"] }
+member.b = { from = "crown", to = "right", via = [7.5, 1.5553287944080996], theory = "elastica", elements = 24, material = "m", section = "s" }
 )toml");
   const std::vector<double>& monitors = run.record().points.back().monitors;
   EXPECT_NEAR(monitors.at(1), 5e-3, 1e-8);
@@ -137,7 +137,7 @@ member.strip = { from = "free", to = "clamp", theory = "euler-bernoulli", elemen
 name = "floor"
 side = "below"
 contact_surface = "axis"
-profile = { type = "line", z = 0.0 }
+profile = { type = "flat", z = 0.0 }
 )toml");
   constexpr double F = 0.1, q0 = 0.02, q1 = 0.004, EI = 1e6;
   double low = 0.0, high = 10.0;
@@ -154,13 +154,13 @@ profile = { type = "line", z = 0.0 }
 TEST(LineLoads, BelongToADistributedLoad) {
   EXPECT_EQ(
       test::said_of(cantilever("theory = \"elastica\"", "load = [{ on = \"beam\", pressure = 1.0, per = \"x\" }]\n")),
-      "deck.toml:11:42: load.0.per: belongs to a load that is distributed; leave it out");
+      "deck.toml:10:46: load.0.per: belongs to a load that is distributed; leave it out");
   EXPECT_EQ(test::said_of(cantilever("theory = \"elastica\"",
                                      "load = [{ at = \"b\", force = [0.0, 1.0], distributed_to = [0.0, 1.0] }]\n")),
-            "deck.toml:11:43: load.0.distributed_to: belongs to a load that is distributed; leave it out");
+            "deck.toml:10:58: load.0.distributed_to: belongs to a load that is distributed; leave it out");
   EXPECT_EQ(test::said_of(cantilever("theory = \"elastica\"",
                                      "load = [{ on = \"beam\", distributed = [0.0, 1.0], per = \"y\" }]\n")),
-            "");
+            "deck.toml:10:56: load.0.per: \"y\" is not one of the words for this key; known are length, x");
 }
 
 }  // namespace arcwall::line_loads_test

@@ -78,9 +78,10 @@ TEST(PlainWall, HasTheGapsOfTheOutlinesThatAreTraced) {
     outlines.push_back({deck::CircleOutline{{0.1, 0.2}, 0.9, keep}, {0.0}});
     outlines.push_back({deck::EllipseOutline{{0.1, 0.2}, {0.5, 1.1}, 0.4, keep}, {0.0}});
     outlines.push_back({points(deck::PolylineOutline{}, x, z, true, keep), {0.15}});
-    outlines.push_back({points(deck::PolylineOutline{}, x, z, true, keep), {0.0, 0.15, 0.05, 0.2, 0.1}});
     outlines.push_back({points(deck::CurveOutline{}, x, z, true, keep), {0.0}});
   }
+  for (const Keep keep : {Keep::outside, Keep::inside})
+    outlines.push_back({points(deck::PolylineOutline{}, x, z, true, keep), {0.08, 0.15, 0.05, 0.2, 0.1}});
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> anywhere(-2.0, 2.0);
   for (const auto& [outline, radii] : outlines) {
