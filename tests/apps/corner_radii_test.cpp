@@ -66,10 +66,9 @@ TEST(CornerRadii, AreOneForEachCorner) {
       "between the ends");
   EXPECT_EQ(test::said_of(strip_under(plateau("[0.1, -0.1]"))),
             "deck.toml:15:17: wall.0.corner_radius: must be at least 0; give radii that are not negative");
-  EXPECT_EQ(
-      test::said_of(strip_under(plateau("[0.1, 5.0]"))),
-      "deck.toml:15:17: wall.0.corner_radius: the corner at (0.4, 0.08) cannot be rounded with 5.0: its lines are "
-      "too short; give a smaller corner_radius");
+  EXPECT_EQ(test::said_of(strip_under(plateau("[0.1, 5.0]"))),
+            "deck.toml:15:17: wall.0.corner_radius: the corner at (0.4, 0.08) cannot be rounded with 5: its lines are "
+            "too short; give a smaller corner_radius");
 }
 
 }  // namespace arcwall::corner_radii_test
