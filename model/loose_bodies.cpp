@@ -186,4 +186,19 @@ LooseHolds loose_holds(const deck::Deck& deck) {
   return {};
 }
 
+LooseHolds holds_until_stiffened(const deck::Deck& deck) {
+  const auto constant = [](const auto& driven) { return driven.constant; };
+  if (std::none_of(deck.loads.begin(), deck.loads.end(), constant) &&
+      std::none_of(deck.prescribed.begin(), deck.prescribed.end(), constant))
+    return {};
+  DeckProblems ignored(deck.source);
+  const StructureOfDeck described = describe_structure(deck, ignored, Mesh::coarsest);
+  const auto structure = described.builder.build();
+  std::vector<Index> joints;
+  for (const auto& [name, node] : described.places.joints) joints.push_back(node);
+  const LooseHolds found =
+      holds_at(described, *structure, LooseHolds::softness * softest_stiffness(deck, *structure), joints);
+  return !found.empty() && hold_all(deck, found) ? found : LooseHolds{};
+}
+
 }  // namespace arcwall

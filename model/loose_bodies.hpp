@@ -38,6 +38,10 @@ struct LooseHolds {
 /// bodies, or if they would not hold it.
 LooseHolds loose_holds(const deck::Deck& deck);
 
+/// Of a mechanism that what is constant may stiffen, as a cable that is stretched: springs at all its joints. None if
+/// nothing is constant, or if they would not hold it.
+LooseHolds holds_until_stiffened(const deck::Deck& deck);
+
 /// The force by which the most flexible member resists a displacement of one of its ends: 3 EI/ℓ³ of a cantilever, of a
 /// bar EA/ℓ [force/length]. `structure` is that of the deck.
 double softest_stiffness(const deck::Deck& deck, const Structure& structure);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/algebra/bordered_solver.hpp"
 #include "core/text.hpp"
 #include "model/build_contact.hpp"
 #include "model/build_monitors.hpp"
@@ -85,8 +86,11 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
   DeckProblems mechanism(whole_deck_->source);
   check_mechanism(*deck_, mechanism);
   if (!mechanism.empty()) {
-    if (hold_loose_bodies()) described = describe_structure(*deck_, problems);
-    check_mechanism(*deck_, problems);
+    if (hold_loose_bodies())
+      described = describe_structure(*deck_, problems);
+    else
+      ramp_holds_ = holds_until_stiffened(*deck_);
+    if (ramp_holds_.empty()) check_mechanism(*deck_, problems);
     problems.raise();
   }
   hold_between_walls(*deck_, described.builder);
@@ -106,6 +110,8 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
   for (const LooseHolds::Hold& hold : loose_holds_.holds)
     held_.push_back(described.places.find(hold.at, structure_->members()).node);
+  for (const LooseHolds::Hold& hold : ramp_holds_.holds)
+    held_in_ramp_.push_back(described.places.find(hold.at, structure_->members()).node);
   if (sliding_ && stage_ == 0 && problems.empty())
     check_between_nodes(*deck_, sliding_ramp_ ? *sliding_ramp_ : *sliding_, problems);
   body_ = sliding ? body_of(*structure_, *sliding_structure_)
@@ -185,11 +191,11 @@ bool Model::hold_loose_bodies() {
   return !loose_holds_.empty();
 }
 
-// The deck's structure with springs so many times as stiff in place of those that hold loose bodies.
-StructureOfDeck Model::described_if_held(double times) const {
+// The deck's structure with springs, so many times as stiff, in place of those that hold loose bodies.
+StructureOfDeck Model::described_if_held(const LooseHolds& holds, double times) const {
   deck::Deck held = *deck_;
   held.springs.resize(held.springs.size() - loose_holds_.holds.size());
-  const std::vector<deck::Spring> springs = loose_holds_.springs(times);
+  const std::vector<deck::Spring> springs = holds.springs(times);
   held.springs.insert(held.springs.end(), springs.begin(), springs.end());
   DeckProblems known(held.source);
   StructureOfDeck described = describe_structure(held, known);
@@ -199,7 +205,8 @@ StructureOfDeck Model::described_if_held(double times) const {
 
 // The structure with springs as stiff as its members in place of those that hold loose bodies.
 std::unique_ptr<Structure> Model::held_structure(bool ramp) const {
-  return described_if_held(softest_stiffness(*deck_, *structure_) / loose_holds_.stiffness()).builder.build(ramp);
+  const double times = softest_stiffness(*deck_, *structure_) / loose_holds_.stiffness();
+  return described_if_held(loose_holds_, times).builder.build(ramp);
 }
 
 // While constant loads grow the springs of loose bodies may bear a small part of them: which way the bodies go to their
@@ -222,6 +229,24 @@ double Model::lambda_scale_if_held(const deck::Deck& deck, bool ramp) const {
       .lambda_scale();
 }
 
+// Whether the structure resists by itself, where a mechanism was held, more than the springs did.
+bool Model::is_stiffened(const State& state) const {
+  if (ramp_holds_.empty()) return true;
+  Linearization now;
+  BorderedSolver solver;
+  system().linearize(state, now);
+  if (solver.factorize(now, system().multiplier_count(state.active_set)) != FactorStatus::ok) return false;
+  for (std::size_t i = 0; i < held_in_ramp_.size(); ++i)
+    for (const Dof direction : {Dof::x, Dof::z}) {
+      const deck::Stiffness& springs = ramp_holds_.holds[i].stiffness;
+      const double stiffness = direction == Dof::x ? springs.x : springs.z;
+      const Vector unit = body_->motion(structure_->dof(held_in_ramp_[i], direction))->gradient(state).dx;
+      Matrix moved = unit;
+      if (!solver.solve_inner(moved) || !(stiffness * std::abs(unit.dot(moved.col(0))) < 1.0)) return false;
+    }
+  return true;
+}
+
 std::optional<std::string> Model::adrift(const State& state) const {
   for (std::size_t i = 0; i < held_.size(); ++i) {
     double squared = 0.0;
@@ -240,9 +265,12 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
       stage_ == 0 && (std::any_of(whole_deck_->loads.begin(), whole_deck_->loads.end(), constant) ||
                       std::any_of(whole_deck_->prescribed.begin(), whole_deck_->prescribed.end(), constant) ||
                       has_interference(*deck_));
-  const bool falls = ramp && !loose_holds_.empty();
-  const StructureBuilder of_ramp =
-      falls ? described_if_held(stiffness_of_ramp_holds() / loose_holds_.stiffness()).builder : builder;
+  const StructureBuilder of_ramp = [&] {
+    if (!ramp) return builder;
+    if (!ramp_holds_.empty()) return described_if_held(ramp_holds_, 1.0).builder;
+    if (loose_holds_.empty()) return builder;
+    return described_if_held(loose_holds_, stiffness_of_ramp_holds() / loose_holds_.stiffness()).builder;
+  }();
   if (ramp) ramp_structure_ = of_ramp.build(true);
   if (!deck_->walls.empty()) {
     const auto held = loose_holds_.empty() ? nullptr : held_structure(false);
@@ -391,7 +419,12 @@ std::optional<State> Model::start(std::string& reason) const {
   }
   state.lambda = 0.0;
   if (!reason.empty()) return std::nullopt;
-  return begun_from(state);
+  State begun = begun_from(state);
+  if (is_stiffened(begun)) return begun;
+  reason =
+      "the structure is a mechanism, which can move without strain, and the constant loads and movements do not "
+      "stiffen it";
+  return std::nullopt;
 }
 
 // λ goes from 0 on in the direction of the first step.

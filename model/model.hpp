@@ -139,7 +139,8 @@ class Model {
   Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, Index stage,
         std::optional<std::vector<DrivenThing>> progress);
   bool hold_loose_bodies();
-  StructureOfDeck described_if_held(double times) const;
+  StructureOfDeck described_if_held(const LooseHolds& holds, double times) const;
+  bool is_stiffened(const State& state) const;
   std::unique_ptr<Structure> held_structure(bool ramp) const;
   double stiffness_of_ramp_holds() const;
   double lambda_scale_if_held(const deck::Deck& deck, bool ramp) const;
@@ -154,7 +155,8 @@ class Model {
   std::vector<double> ended_stages_;
   std::shared_ptr<const deck::Deck> deck_;  // of the stage
   LooseHolds loose_holds_;
-  std::vector<Index> held_;  // nodes of their points
+  LooseHolds ramp_holds_;                   // of a mechanism, until what is constant stiffens it
+  std::vector<Index> held_, held_in_ramp_;  // nodes of their points
   std::unique_ptr<Structure> structure_, ramp_structure_;
   std::unique_ptr<IncrementalStructure> incremental_structure_;
   std::unique_ptr<MultiplierContact> contact_, ramp_contact_;
