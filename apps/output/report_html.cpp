@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/output/answers.hpp"
 #include "apps/output/branch_map_page.hpp"
 #include "apps/output/event_marks.hpp"
 #include "apps/output/events_text.hpp"
@@ -88,6 +89,20 @@ std::string outcome(const Record& record) {
     text += ". It ended: " + plain(how_it_ended(*record.branches.front().end), 400);
   if (!record.branches.empty() && !record.branches.back().end) text += ". It is not finished";
   return text;
+}
+
+std::string list_of_answers(const Record& record) {
+  constexpr std::size_t most = 4;
+  std::vector<std::string> all = answers(record);
+  if (all.empty()) return "";
+  if (all.size() > most) {
+    const std::size_t more = all.size() - most;
+    all.resize(most);
+    all.push_back(fmt::format("… and {} below.", counted(more, "further jump", "further jumps")));
+  }
+  std::string text = "<ul class=\"answers\">";
+  for (const std::string& sentence : all) text += "<li>" + escaped(plain(sentence, 400)) + "</li>";
+  return text + "</ul>";
 }
 
 // What the reader has to know first: which branches did not end where the deck says, why, and what can be done.
@@ -449,6 +464,7 @@ ReportPage::ReportPage(const Record& record, const ReportContent& content, const
           {"source", escaped(fmt::format("{}, trace-path {}", plain(record.deck, 200), program_version()))},
           {"description", description(content)},
           {"outcome", escaped(outcome(record))},
+          {"answers", list_of_answers(record)},
           {"early", early_ends(record, content.warning)},
           {"monitors", monitor_choices(record)},
           {"charts", charts(record, content)},

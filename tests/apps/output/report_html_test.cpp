@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <regex>
 
+#include "apps/output/answers.hpp"
 #include "apps/output/report_data.hpp"
 #include "apps/output/report_parts.hpp"
 #include "tests/apps/output/sample_record.hpp"
@@ -288,6 +291,41 @@ TEST(ReportHtml, SaysWhatLambdaMultipliesAndHowHeightsAreDrawn) {
                     happening = page.find("id=\"happening\"");
   EXPECT_LT(stage, note);
   EXPECT_LT(note, happening);
+}
+
+// Two bars of half-span 5 and rise h, Green strain: λ is greatest at w = h (1 − 1/√3), where the other branch of the
+// curve has that load at w = h (1 + 2/√3); at h (1 + 1/√3) it snaps back (closed form of tests/published).
+TEST(ReportHtml, SaysFirstWhatTheRunAnswers) {
+  const test::TracedDeck truss(test::example("truss"), {"path.jumps=true"});
+  const double h = 0.5, c = 1e5 / std::pow(25.0 + h * h, 1.5), root = std::sqrt(3.0);
+  const double from = h * (1.0 - 1.0 / root), to = h * (1.0 + 2.0 / root),
+               load = c * from * (from - h) * (from - 2.0 * h);
+  const auto potential = [&](double w) { return c * w * w * (w * w / 4.0 - h * w + h * h) - load * w; };
+
+  const std::vector<std::string> said = answers(truss.record());
+
+  ASSERT_EQ(said.size(), 1u);
+  std::smatch found;
+  ASSERT_TRUE(std::regex_match(said[0], found,
+                               std::regex("Snaps at λ = ([-0-9.]+), from w = ([0-9.]+) m to w = ([0-9.]+) m; releases "
+                                          "([0-9.]+) kN m; snaps back at λ = ([-0-9.]+); the cycle dissipates "
+                                          "([0-9.]+) kN m\\.")))
+      << said[0];
+  const double released = potential(from) - potential(to);
+  const std::array<double, 6> closed_form{load, from, to, released, -load, 2.0 * released};
+  constexpr double of_five_digits = 5e-5;
+  for (std::size_t i = 0; i < closed_form.size(); ++i)
+    EXPECT_NEAR(std::stod(found[i + 1]), closed_form[i], of_five_digits * std::abs(closed_form[i])) << said[0];
+  EXPECT_NE(page_of(truss.record(), {}).find("<li>" + said[0] + "</li>"), std::string::npos);
+}
+
+TEST(ReportHtml, SaysThatEveryPointIsStable) {
+  const test::TracedDeck truss(test::example("truss"), {"path.stop.w=[-0.1,0.1]"});
+
+  const std::vector<std::string> said = answers(truss.record());
+
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_TRUE(said[0].starts_with("Stable at every point, to λ = ")) << said[0];
 }
 
 }  // namespace
