@@ -18,11 +18,11 @@ namespace arcwall::explore {
 
 namespace {
 
-void limit(int what, double most) {
+void limit(decltype(RLIMIT_AS) what, double most) {
   constexpr double without = 1e15;
   const rlim_t value = most < without ? static_cast<rlim_t>(std::ceil(most)) : RLIM_INFINITY;
   const rlimit both{.rlim_cur = value, .rlim_max = value};
-  ::setrlimit(static_cast<decltype(RLIMIT_AS)>(what), &both);
+  ::setrlimit(what, &both);
 }
 
 void write_all(int descriptor, const std::string& text) {

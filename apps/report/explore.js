@@ -141,7 +141,10 @@ const list_keys = () => {
   element('found').replaceChildren(...all.slice(0, most).map(({ key, value, unit }) => {
     const button = made('button', { type: 'button', title: `A slider for ${key}` }, key,
       made('span', { textContent: unit === '' ? as_text(value) : `${value} ${unit}` }));
-    button.addEventListener('click', () => add_slider(key));
+    button.addEventListener('click', () => {
+      add_slider(key);
+      element('sliders').lastElementChild?.querySelector('input[type=range]').focus();
+    });
     return made('li', {}, button);
   }));
   if (all.length > most) element('found').append(made('li', { textContent: `and ${all.length - most} more; give a part of the key` }));

@@ -72,3 +72,32 @@ export const saved = async (page, button) => {
   const file = await download;
   return [file.suggestedFilename(), readFileSync(await file.path())];
 };
+
+// What the Tab key reaches until it leaves the page is marked; it must be there, and seen to be focused.
+const walk_by_tab = async (page) => {
+  for (let i = 0; i < 200; ++i) {
+    await page.keyboard.press('Tab');
+    const at = await page.evaluate(() => {
+      const focused = document.activeElement;
+      if (focused === document.body || focused === null) return null;
+      focused.dataset.reached = 'yes';
+      const box = focused.getBoundingClientRect(), { outlineStyle, outlineWidth } = getComputedStyle(focused);
+      return { what: focused.outerHTML.slice(0, 120), there: box.width > 0 && box.height > 0,
+        outlined: outlineStyle !== 'none' && parseFloat(outlineWidth) > 0 };
+    });
+    if (at === null) return;
+    assert.ok(at.there, `focused, but not there: ${at.what}`);
+    assert.ok(at.outlined, `focused, but not to be seen: ${at.what}`);
+  }
+};
+
+// All that a reader can use is reached by the Tab key, and nothing is wider than the window.
+export const by_keyboard_alone = async (page, width) => {
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= width, 'no sideways scroll');
+  await walk_by_tab(page);
+  const missed = await page.evaluate(() => [...document.querySelectorAll('a[href], button, select, input, summary, [tabindex="0"]')]
+    .filter((control) => control.checkVisibility({ checkVisibilityCSS: true }) && !control.disabled && !control.dataset.reached
+      && (control.type !== 'radio' || control.checked))
+    .map((control) => control.outerHTML.slice(0, 120)));
+  assert.deepEqual(missed, [], `${width} wide: the keyboard does not reach them`);
+};

@@ -5,7 +5,7 @@ import { mkdtempSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
 import { join } from 'node:path';
 import { afterEach, test } from 'node:test';
-import { examples, folder, open, phone, report_of, saved, trace_path } from './browser.mjs';
+import { by_keyboard_alone, desktop, examples, folder, open, phone, report_of, saved, trace_path } from './browser.mjs';
 import { hostile_decks } from './hostile_decks.mjs';
 
 const upper = 'wall.upper.profile.z';
@@ -132,10 +132,11 @@ test('pins, undo, reset, the command and the saved deck', async () => {
   await finish();
 });
 
+const with_a_variable = channel_text.replace('z = 0.2 }', 'z = "gap / 2" }').replace('z = -0.2 }', 'z = "-gap / 2" }') +
+  '\n[variables]\ngap = 0.4\n';
+
 test('the variables of a deck come first; numbers on one line keep their places', async () => {
-  const text = channel_text.replace('z = 0.2 }', 'z = "gap / 2" }').replace('z = -0.2 }', 'z = "-gap / 2" }')
-    .replace('lambda = [-1.0, 9.0]', 'lambda = [ -1.0 , 9.0 ] # 💣 é') +
-    '\n[variables]\ngap = 0.4\n';
+  const text = with_a_variable.replace('lambda = [-1.0, 9.0]', 'lambda = [ -1.0 , 9.0 ] # 💣 é');
   const { address } = await explore(text);
   const { page, finish } = await opened(address);
   assert.deepEqual(await page.locator('.number').evaluateAll((all) => all.map(({ dataset }) => dataset.key)), ['variables.gap']);
@@ -279,10 +280,17 @@ test('two hundred hostile texts', async () => {
   await finish();
 });
 
-test('on a telephone nothing is cut', async () => {
-  const { address } = await explore();
-  const { page, finish } = await opened(address, { viewport: phone });
-  await add(page, upper);
-  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= phone.width);
-  await finish();
-});
+for (const [viewport, colorScheme] of [[desktop, 'light'], [{ width: 390, height: phone.height }, 'dark']])
+  test(`by the keyboard alone, ${viewport.width} wide`, async () => {
+    const { address } = await explore(with_a_variable);
+    const { page, finish } = await opened(address, { viewport, colorScheme });
+    await by_keyboard_alone(page, viewport.width);
+    await page.focus('.number input[type=range]');
+    await page.keyboard.press('ArrowRight');
+    await settled(page);
+    assert.notEqual(await text_of(page), with_a_variable, 'an arrow key moves the slider');
+    await page.focus('#found button');
+    await page.keyboard.press('Enter');
+    assert.equal(await page.evaluate(() => document.activeElement.type), 'range', 'a new slider has the focus');
+    await finish();
+  });

@@ -4,7 +4,7 @@ import { execFileSync } from 'node:child_process';
 import { copyFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { channel, examples, folder, open, phone, desktop, trace_path } from './browser.mjs';
+import { by_keyboard_alone, channel, examples, folder, open, phone, desktop, trace_path } from './browser.mjs';
 
 const run = (...words) => execFileSync(trace_path, words, { stdio: 'ignore' });
 const hostile = '\u202e<img src=x onerror=touched=1></title><script>touched=1</script>';
@@ -32,36 +32,12 @@ const pages = {
   'a sweep of curves': () => sweep('curves', 'channel.toml', 'command = "curve"\n[grid]\nmember.column.elements = [6, 8]\n'),
 };
 
-// What the Tab key reaches until it leaves the page is marked; it must be there, and seen to be focused.
-const walk_by_tab = async (page) => {
-  for (let i = 0; i < 200; ++i) {
-    await page.keyboard.press('Tab');
-    const at = await page.evaluate(() => {
-      const focused = document.activeElement;
-      if (focused === document.body || focused === null) return null;
-      focused.dataset.reached = 'yes';
-      const box = focused.getBoundingClientRect(), { outlineStyle, outlineWidth } = getComputedStyle(focused);
-      return { what: focused.outerHTML.slice(0, 120), there: box.width > 0 && box.height > 0,
-        outlined: outlineStyle !== 'none' && parseFloat(outlineWidth) > 0 };
-    });
-    if (at === null) return;
-    assert.ok(at.there, `focused, but not there: ${at.what}`);
-    assert.ok(at.outlined, `focused, but not to be seen: ${at.what}`);
-  }
-};
-
 for (const [name, make] of Object.entries(pages))
   test(`by the keyboard alone, wide and narrow, light and dark: ${name}`, async () => {
     const file = make();
     for (const [viewport, colorScheme] of [[desktop, 'light'], [{ width: 390, height: phone.height }, 'dark']]) {
       const { page, finish } = await open(file, { viewport, colorScheme });
-      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= viewport.width, 'no sideways scroll');
-      await walk_by_tab(page);
-      const missed = await page.evaluate(() => [...document.querySelectorAll('a[href], button, select, input, summary, [tabindex="0"]')]
-        .filter((control) => control.checkVisibility({ checkVisibilityCSS: true }) && !control.disabled && !control.dataset.reached
-          && (control.type !== 'radio' || control.checked))
-        .map((control) => control.outerHTML.slice(0, 120)));
-      assert.deepEqual(missed, [], `${viewport.width} wide: the keyboard does not reach them`);
+      await by_keyboard_alone(page, viewport.width);
       assert.equal(await page.evaluate(() => window.touched), undefined, 'no text has become a script');
       await finish();
     }
