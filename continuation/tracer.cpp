@@ -166,9 +166,12 @@ void Tracer::set_detectors() {
   detectors.insert(detectors.end(), own.begin(), own.end());
 }
 
-void Tracer::measure_lambda_scale() {
+// Behind a contact that has opened, which held the structure. Where a span has just begun that is too stiff to say
+// much.
+void Tracer::measure_lambda_scale(const Arc& arc) {
+  const auto opens = [](const Event& event) { return event.kind == EventKind::contact_opens; };
   Departure& from = state_.from;
-  if (from.before || from.known_end) return;
+  if (from.known_end || std::none_of(arc.events.begin(), arc.events.end(), opens)) return;
   const std::optional<double> scale = natural_lambda_scale(*tools_, from.point.state);
   if (!scale) return;
   state_.lambda_scale = *scale;
@@ -180,8 +183,11 @@ void Tracer::measure_lambda_scale() {
 
 std::optional<Arc> Tracer::next() {
   if (state_.end) return std::nullopt;
-  if (state_.points == 0) return begin();
-  if (state_.lambda_scale_is_assumed) measure_lambda_scale();
+  if (state_.points == 0) {
+    std::optional<Arc> first = begin();
+    if (first && state_.lambda_scale_is_assumed) measure_lambda_scale(*first);
+    return first;
+  }
   if (state_.points >= tools_->options.max_points) {
     state_.end = {.reason = EndReason::max_points, .detail = std::to_string(state_.points) + " points"};
     return std::nullopt;
@@ -197,7 +203,11 @@ std::optional<Arc> Tracer::next() {
     tools_->counter.track_from(state_.from.nearest());
     ArcAttempt attempt = attempt_arc(*tools_, state_, s);
     tell_ledger(tools_->options, attempt);
-    if (auto* const accepted = std::get_if<Accepted>(&attempt.result)) return take(std::move(*accepted), state_);
+    if (auto* const accepted = std::get_if<Accepted>(&attempt.result)) {
+      Arc arc = take(std::move(*accepted), state_);
+      if (state_.lambda_scale_is_assumed) measure_lambda_scale(arc);
+      return arc;
+    }
     state_.from.pending_singular.clear();  // where what was known could not be reached, a step is taken anew
     state_.from.known_end.reset();
     auto* const retry = std::get_if<Retry>(&attempt.result);

@@ -22,7 +22,7 @@ void limit(decltype(RLIMIT_AS) what, double most) {
   constexpr double without = 1e15;
   const rlim_t value = most < without ? static_cast<rlim_t>(std::ceil(most)) : RLIM_INFINITY;
   const rlimit both{.rlim_cur = value, .rlim_max = value};
-  ::setrlimit(what, &both);
+  ::prlimit(0, what, &both, nullptr);
 }
 
 void write_all(int descriptor, const std::string& text) {
