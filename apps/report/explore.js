@@ -104,7 +104,7 @@ const add_slider = (key) => {
     trace_now();
   });
   field.addEventListener('change', () => {
-    if (field.value.trim() === '' || !Number.isFinite(Number(field.value))) return show_number();
+    if (field.value.trim() === '' || !Number.isFinite(Number(field.value))) return show_number(false);
     const was = text;
     change(as_text(Number(field.value)));
     before = null;
@@ -114,12 +114,12 @@ const add_slider = (key) => {
   });
   for (const end of [low, high]) end.addEventListener('change', set_ends);
   // The number as it stands in the text, or none where it does not.
-  const show_number = () => {
+  const show_number = (typing = document.activeElement === field) => {
     const now = number_at(key);
     slider.disabled = field.disabled = !now;
     if (!now) return;
-    field.value = as_text(now.value);
-    slider.value = field.value;
+    if (!typing) field.value = as_text(now.value);
+    slider.value = as_text(now.value);
   };
   const box = made('div', { className: 'number' }, name, field, remove, slider, made('div', { className: 'ends' }, low, high));
   box.dataset.key = key;

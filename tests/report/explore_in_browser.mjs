@@ -27,11 +27,10 @@ const explore = async (text = channel_text, name = 'deck.toml') => {
 };
 afterEach(() => { for (const server of servers.splice(0)) server.kill('SIGKILL'); });
 
-// What the page shows is of this text.
-const shows = (page, text) => page.waitForFunction((of) => document.getElementById('result').dataset.text === of &&
-  !document.getElementById('result').classList.contains('old'), text, { polling: 5 });
+// What the page shows is of its text.
+const settled = (page) => page.waitForFunction(() => document.getElementById('result').dataset.text === document.getElementById('text').value &&
+  !document.getElementById('result').classList.contains('old'), undefined, { polling: 5 });
 const text_of = (page) => page.inputValue('#text');
-const settled = async (page) => shows(page, await text_of(page));
 const opened = async (address, options) => {
   const one = await open(address, options);
   await settled(one.page);
