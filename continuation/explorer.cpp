@@ -272,9 +272,7 @@ void Explorer::jump(const Event& lost) {
   queue_.push_front({.start = {.state = std::move(*end.state), .lambda_scale = lambda_scale_},
                      .record = {.parent = current_, .depth = here().depth, .after_jump = true},
                      .ends = std::move(ends)});
-  tracer_->stop({.reason = EndReason::jumped,
-                 .detail = "continues after a jump as branch " + std::to_string(next),
-                 .partner = next});
+  tracer_->stop({.reason = EndReason::jumped, .detail = detail_of_partner(EndReason::jumped, next), .partner = next});
 }
 
 // Decides which of the ways off a branch point are traced. `point` is where they leave: that of the event, or a corner
@@ -304,8 +302,9 @@ void Explorer::leave(const Event& event, const BranchPoint& point, const std::ve
     return;
   enqueue(event, start_along(event, best), best.sign, mirror_image);
   const auto next = static_cast<int>(branches_.size());
-  tracer_->stop(
-      {.reason = EndReason::switched_branch, .detail = "continues as branch " + std::to_string(next), .partner = next});
+  tracer_->stop({.reason = EndReason::switched_branch,
+                 .detail = detail_of_partner(EndReason::switched_branch, next),
+                 .partner = next});
 }
 
 void Explorer::enqueue(const Event& event, BranchStart start, int sign, bool mirror_image) {

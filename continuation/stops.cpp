@@ -32,4 +32,9 @@ std::optional<BranchEnd> stop_at_events(const TraceOptions& options, const std::
   return met;
 }
 
+std::string detail_of_partner(EndReason reason, int branch) {
+  const std::string after = reason == EndReason::jumped ? "continues after a jump" : "continues";
+  return after + " as branch " + std::to_string(branch);
+}
+
 }  // namespace arcwall

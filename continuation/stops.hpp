@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "continuation/trace_options.hpp"
@@ -17,5 +18,8 @@ std::optional<BranchEnd> stop_at_bounds(const TraceOptions& options, const State
 
 /// The end of a branch at a point with such events.
 std::optional<BranchEnd> stop_at_events(const TraceOptions& options, const std::vector<Event>& events);
+
+/// Returns the detail of an end behind which another branch continues the path: switched_branch or jumped.
+std::string detail_of_partner(EndReason reason, int branch);
 
 }  // namespace arcwall

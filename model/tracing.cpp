@@ -135,8 +135,8 @@ class PathTracing final : public Tracing {
     if (!recorder_) return;
     BranchEnd end = branch().end.value();
     if (end.partner) *end.partner += first_;
-    if (first_ > 0 && end.reason == EndReason::switched_branch)
-      end.detail = "continues as branch " + std::to_string(*end.partner);
+    if (end.reason == EndReason::switched_branch || end.reason == EndReason::jumped)
+      end.detail = detail_of_partner(end.reason, *end.partner);
     recorder_->end(end);
     recorder_.reset();
   }

@@ -12,7 +12,7 @@ constexpr std::int64_t greatest(Stability) { return static_cast<std::int64_t>(St
 constexpr std::int64_t greatest(EventKind) { return static_cast<std::int64_t>(EventKind::user); }
 constexpr std::int64_t greatest(Extremum) { return static_cast<std::int64_t>(Extremum::minimum); }
 constexpr std::int64_t greatest(BranchType) { return static_cast<std::int64_t>(BranchType::multiple); }
-constexpr std::int64_t greatest(EndReason) { return static_cast<std::int64_t>(EndReason::rigid_body_motion); }
+constexpr std::int64_t greatest(EndReason) { return static_cast<std::int64_t>(EndReason::unstable); }
 
 constexpr std::int64_t greatest(SlidingContactLayout::Span) {
   return static_cast<std::int64_t>(SlidingContactLayout::Span::pressed);

@@ -251,7 +251,7 @@ TEST(JumpRuns, EndBehindABoundThatTheJumpPasses) {
 
 // A beam that slides hangs on a spring whose force has a maximum of 1: beyond it nothing holds the load.
 TEST(JumpRuns, EndWhereNothingHoldsTheStructure) {
-  const TracedDeck run(R"toml(
+  Session run = test::traced(R"toml(
 title = "A beam on a spring that gives way"
 material.m = { E = 1e4 }
 section.s = { shape = "general", A = 1.0, I = 1.0 }
@@ -267,8 +267,9 @@ member.beam = { from = "a", to = "b", theory = "elastica", elements = 2, materia
   EXPECT_EQ(only.id, 0);
   EXPECT_EQ(only.end->reason, EndReason::unstable);
   EXPECT_EQ(only.end->detail, "no state after a jump is known: the structure finds no equilibrium at this load");
-  EXPECT_NEAR(run.last().lambda, 1.0, 1e-9);
+  EXPECT_NEAR(run.record().points.back().lambda, 1.0, 1e-9);
   EXPECT_EQ(exit_status(run.record()), ExitStatus::ended_early);
+  EXPECT_NO_THROW(Session::from(run.checkpoint(), "checkpoint", Session::Resume::go_on));
 }
 
 TEST(JumpRuns, AreResumedToTheSameBits) {
@@ -305,6 +306,26 @@ drives = ["load.0"]
   const double z = 1.0 + record.points.back().monitors.at(0);
   EXPECT_NEAR(1e4 * z * (1.0 - z * z) / std::pow(101.0, 1.5), 24.0, 1e-8);
   test::expect_whole(run);
+}
+
+// Branches of a stage are counted on from those of the stages before.
+TEST(JumpRuns, NameTheBranchThatFollowsInALaterStage) {
+  const TracedDeck run(truss("stop.lambda = [-1.0, 20.0]\n") + R"toml(
+[[stage]]
+name = "through"
+drives = ["load.0"]
+stop = { lambda = [-1.0, 4.0] }
+[[stage]]
+name = "back"
+drives = ["load.0"]
+step = -0.3
+stop = { lambda = [-20.0, 1.0] }
+)toml");
+  const std::vector<RecordBranch>& branches = run.record().branches;
+  ASSERT_EQ(branches.size(), 4u);
+  EXPECT_EQ(branches[0].end->detail, "continues after a jump as branch 1");
+  EXPECT_EQ(branches[2].end->detail, "continues after a jump as branch 3");
+  EXPECT_EQ(branches[3].parent, 2);
 }
 
 // A curve of events begins at an event behind a jump.
