@@ -53,8 +53,9 @@ path = { step = 0.3, branches = "primary", stop = { w = [-2.5, 0.5] } }
 monitor = [{ name = "w", at = "top", component = "z" }]
 )toml" + two_bars;
 
-/// A straight column of length 2 between pins, EI = 0.175 and EA = 210, traced up to its pitchfork; tables may follow.
-inline std::string straight_column(int elements) {
+/// A straight column of length 2 between pins, EI = 0.175 and EA = 210, traced up to its pitchfork or another stop;
+/// tables may follow.
+inline std::string straight_column(int elements, const std::string& stop = "event = \"branch-point\"") {
   return fmt::format(R"toml(
 title = "A straight column"
 material.m = {{ E = 21000.0 }}
@@ -62,10 +63,10 @@ section.s = {{ shape = "general", A = 0.01, I = 8.333333333333333e-6 }}
 point = {{ A = [0.0, 0.0], B = [2.0, 0.0] }}
 support = {{ A = ["x", "z"], B = ["z"] }}
 load = [{{ at = "B", force = [-1.0, 0.0] }}]
-path = {{ step = 0.05, stop = {{ event = "branch-point" }} }}
+path = {{ step = 0.05, stop = {{ {} }} }}
 member.c = {{ from = "A", to = "B", theory = "elastica", elements = {}, material = "m", section = "s" }}
 )toml",
-                     elements);
+                     stop, elements);
 }
 
 /// A column from A to B between walls at 0.2 to both sides, of material m and section s; its imperfection has a third

@@ -201,16 +201,11 @@ TEST(JumpRuns, TakeTheStaircaseOfAColumnInAChannel) {
 
 // A column that buckles onto a stable branch follows it, and does not jump.
 TEST(JumpRuns, FollowAStableBranchOffABranchPoint) {
-  const std::string column = R"toml(
-title = "A straight column"
-material.m = { E = 21000.0 }
-section.s = { shape = "general", A = 0.01, I = 8.333333333333333e-6 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-support = { A = ["x", "z"], B = ["z"] }
-load = [{ at = "B", force = [-1.0, 0.0] }]
-path = { step = 0.05, stop = { lambda = [-1.0, 0.5] } }
-monitor = [{ name = "mid", at = "c:0.5", component = "z" }]
-member.c = { from = "A", to = "B", theory = "elastica", elements = 16, material = "m", section = "s" }
+  const std::string column = test::straight_column(16, "lambda = [-1.0, 0.5]") + R"toml(
+[[monitor]]
+name = "mid"
+at = "c:0.5"
+component = "z"
 )toml";
   const TracedDeck follows(column), jumps(column, {"path.branches=\"jump\""});
   EXPECT_TRUE(jumps_of(jumps.record()).empty());

@@ -333,16 +333,7 @@ TEST(Jump, TakesNoMoreWorkThanItIsGiven) {
 
 // A column that buckles into the post-buckling branch, which is stable, does not fall.
 TEST(Jump, IsNoneWhereTheBranchBehindIsStable) {
-  const TracedDeck traced(R"toml(
-title = "A straight column"
-material.m = { E = 21000.0 }
-section.s = { shape = "general", A = 0.01, I = 8.333333333333333e-6 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-support = { A = ["x", "z"], B = ["z"] }
-load = [{ at = "B", force = [-1.0, 0.0] }]
-path = { step = 0.05, jumps = true, stop = { lambda = [-1.0, 0.5] } }
-member.c = { from = "A", to = "B", theory = "elastica", elements = 16, material = "m", section = "s" }
-)toml");
+  const TracedDeck traced(test::straight_column(16, "lambda = [-1.0, 0.5]"), {"path.jumps=true"});
   EXPECT_FALSE(event_of(traced, EventKind::branch_point).jump);
 }
 
