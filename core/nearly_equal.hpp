@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 namespace arcwall {
@@ -9,8 +8,6 @@ namespace arcwall {
 /// nothing has moved.
 inline constexpr double same_value = 1e-9;
 
-inline bool nearly_equal(double a, double b, double scale = 0.0) {
-  return std::abs(a - b) <= same_value * std::max(scale, std::abs(a) + std::abs(b));
-}
+inline bool nearly_equal(double a, double b) { return std::abs(a - b) <= same_value * (std::abs(a) + std::abs(b)); }
 
 }  // namespace arcwall

@@ -193,7 +193,7 @@ class Maker {
       return std::array{low.first, low.second, high.first, high.second};
     };
     const auto of_a = ends(a), of_b = ends(b);
-    return std::equal(of_a.begin(), of_a.end(), of_b.begin(), [](double x, double y) { return nearly_equal(x, y); });
+    return std::equal(of_a.begin(), of_a.end(), of_b.begin(), nearly_equal);
   }
 
   // Of segments that are images of each other the first stays.
