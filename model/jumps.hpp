@@ -16,8 +16,7 @@ struct Fall {
 };
 
 /// Returns the jump from an event at which a stable structure loses its stability; `behind`: its path behind the event.
-/// Of two mirror images the
-/// one on which the first monitor that changes increases.
+/// Of two mirror images the one on which the first monitor that changes increases.
 Fall fall_beyond(const Model& model, const Event& lost, const PathPoint& behind);
 
 /// Adds to each event of a record at which a stable structure loses its stability where that falls to at the same λ
