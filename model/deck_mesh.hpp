@@ -13,10 +13,6 @@ namespace arcwall {
 /// other unknowns; there is a way to and fro.
 class DeckMesh {
  public:
-  /// Equilibria that are nearer than this are the same [path metric]: one of nodes and one of the path, and two of the
-  /// path on meshes of their own.
-  static constexpr double same_of_nodes = 0.03, same_on_path = 0.003;
-
   /// `model` must outlive this.
   explicit DeckMesh(const Model& model);
 
@@ -27,6 +23,12 @@ class DeckMesh {
   const UnilateralSystem& system() const;
 
   Index size() const { return size_; }
+
+  /// Equilibria at one λ that are nearer than this are the same [path metric]: one of nodes and one of the path, and
+  /// two of the path. With contact at nodes all are solutions of the same equations; where contact moves, meshes
+  /// differ.
+  double same_of_nodes() const { return same_equations() ? 1e-6 : 0.03; }
+  double same_on_path() const { return same_equations() ? 1e-6 : 0.003; }
 
   /// The unknowns of the structure in a state of the model, whichever mesh that has.
   Vector unknowns(const State& of_model) const;
@@ -47,6 +49,7 @@ class DeckMesh {
 
  private:
   Vector values(const State& state) const;
+  bool same_equations() const { return model_.sliding() == nullptr; }
 
   const Model& model_;
   Index size_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "continuation/answers/descent.hpp"
+#include "continuation/answers/energy_valley.hpp"
 #include "continuation/answers/equilibrium_at.hpp"
 #include "continuation/tracer.hpp"
 #include "model/contact_pattern.hpp"
@@ -21,14 +22,18 @@ namespace arcwall {
 
 namespace {
 
-// All lengths in the path metric of the deck's mesh.
-constexpr double is_elsewhere = 0.03;           // from the event, where a descent has left it
-constexpr double pushes[] = {0.01, 0.03, 0.1};  // off the event, along the path behind it or the critical mode
+// Off the event, where no valley leads away from it, along the path behind it or the critical modes [path metric].
+constexpr double pushes[] = {1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
+constexpr double along_mode = 0.01;   // of a state on the critical mode, which tells its direction alone [path metric]
+constexpr double energy_lost = 1e-9;  // of the energy: a descent that has left the event
 
 // Falls take no more time than tracing, and about a second more: that is so many factorizations over the number of
 // unknowns. With members of theory Essenburg one of them costs some ten times as much as with others.
 constexpr double more_work = 4e5, more_work_for_essenburg = 1e5;
 constexpr const char* took_too_long = "the time limit of the jumps was met: twice the time of the tracing";
+constexpr const char* not_of_path =
+    "its state lies on no traced branch, and with moving contact points it was not found there";
+constexpr const char* no_rest = "the motion did not come to rest";
 
 // Stable equilibria of a record at a λ, but not beside the event at point `but` if it is one of the record's.
 std::vector<OnPath> stable_at(const Model& model, const Record& record, double lambda,
@@ -111,10 +116,10 @@ class Falls {
     if (event.branching && event.branching->mode.dx.size() == event.branching->state.x.size()) {
       const BranchPoint& point = *event.branching;
       const Metric metric(model_.system().weights(point.state.active_set), 1.0);
-      loss.behind = moved(point.state, point.mode, pushes[0]);
+      loss.behind = moved(point.state, point.mode, along_mode);
       loss.sense = preferred_sense(model_.explore().preference, point.state, point.mode.dx, metric).value_or(1);
     } else {
-      loss.behind = moved(behind.state, behind.tangent, pushes[0]);
+      loss.behind = moved(behind.state, behind.tangent, along_mode);
     }
     std::vector<Fallen> ends = fall_in_each_sense(loss);
     Fall fall{.jump = told(loss, ends)};
@@ -191,10 +196,10 @@ class Falls {
     const RecordJump &a = *first.jump, &b = *second.jump;
     if (std::abs(a.energy - b.energy) > same_energy * std::max(std::abs(a.energy), std::abs(b.energy))) return false;
     const Vector x = mesh_.unknowns(first.rest), y = mesh_.unknowns(second.rest);
-    if (mesh_.distance(x, y) <= DeckMesh::same_of_nodes) return true;
+    if (mesh_.distance(x, y) <= mesh_.same_of_nodes()) return true;
     const std::vector<Vector> images = MirrorImages(model_.structure()).of(mesh_.state(x, a.lambda));
     return std::any_of(images.begin(), images.end(),
-                       [&](const Vector& image) { return mesh_.distance(image, y) <= DeckMesh::same_of_nodes; });
+                       [&](const Vector& image) { return mesh_.distance(image, y) <= mesh_.same_of_nodes(); });
   }
 
   // Whether a state is so far from an event that it says where the path goes on.
@@ -241,7 +246,7 @@ class Falls {
   void push_along_mode(const RecordEvent& event, Loss& loss) const {
     for (const RecordBranchPoint& one : record_.branch_points) {
       if (one.event != event.id || one.point->mode.dx.size() != one.point->state.x.size()) continue;
-      loss.behind = moved(one.point->state, one.point->mode, pushes[0]);
+      loss.behind = moved(one.point->state, one.point->mode, along_mode);
     }
   }
 
@@ -262,7 +267,7 @@ class Falls {
         if (!loses_stability(event)) continue;
         found = Loss{.kind = event.kind, .at = event.state, .energy = model_.energy(event.state)};
         if (event.branching && event.branching->mode.dx.size() == event.state.x.size())
-          found->behind = moved(event.state, event.branching->mode, pushes[0]);
+          found->behind = moved(event.state, event.branching->mode, along_mode);
       }
     }
     return std::nullopt;
@@ -271,37 +276,55 @@ class Falls {
   Fallen fall(const Loss& loss) {
     if (!loss.behind) return {};
     const Vector start = mesh_.unknowns(loss.at), behind = loss.sense * (mesh_.unknowns(*loss.behind) - start);
-    const double far = mesh_.length(behind);
-    auto jump = std::make_shared<RecordJump>();
-    jump->lambda = loss.at.lambda;
-    bool left = false;
-    for (const double push : pushes) {
-      const Vector pushed = start + std::max(1.0, push / far) * behind;
-      const Descent descent =
-          descend(mesh_.system(), mesh_.state(pushed, loss.at.lambda), model_.options().factorization, left_);
-      if (descent.end == DescentEnd::falls_away) {
-        jump->reason = "no_equilibrium";
-        jump->why = "the structure finds no equilibrium at this load";
-        return {.jump = jump};
-      }
-      if (descent.end == DescentEnd::cut_off) {
-        jump->reason = "not_found";
-        jump->why = took_too_long;
-        return {.jump = jump};
-      }
-      // Near a branch point from which a stable branch leaves it creeps back.
-      if (mesh_.distance(descent.state.x.head(mesh_.size()), start) <= is_elsewhere) continue;
-      if (descent.end == DescentEnd::not_found) {
-        jump->reason = "not_found";
-        jump->why = "the motion did not come to rest";
-        left = true;
-        continue;
-      }
-      Fallen fallen{.jump = jump, .rest = descent.state};
-      settle(loss, fallen.rest, *jump);
-      return fallen;
+    const State event = mesh_.state(start, loss.at.lambda);
+    const Valley valley = follow_valley(mesh_.system(), {.state = event, .towards = behind, .kind = kind_of(loss.kind)},
+                                        model_.options().factorization, left_);
+    if (valley.end == ValleyEnd::cut_off) return fallen_not(loss, took_too_long);
+    if (valley.end == ValleyEnd::leads_back) return {};
+    Fallen fallen{};
+    if (valley.end == ValleyEnd::leads_away) {
+      fallen = *fall_from(loss, valley.state);
+      if (fallen.jump->why != not_of_path) return fallen;  // else nodes hold what moving contact does not
     }
-    return {.jump = left ? jump : nullptr};
+    for (const double push : pushes) {
+      const Vector pushed = start + push / mesh_.length(behind) * behind;
+      const auto end = fall_from(loss, mesh_.state(pushed, loss.at.lambda), mesh_.system().energy(event));
+      if (!end) continue;
+      fallen = *end;
+      if (fallen.jump->why != no_rest && fallen.jump->why != not_of_path) break;
+    }
+    return fallen;
+  }
+
+  static LostState::Kind kind_of(EventKind kind) {
+    if (kind == EventKind::branch_point) return LostState::Kind::branch_point;
+    return kind == EventKind::limit_point ? LostState::Kind::limit_point : LostState::Kind::contact_change;
+  }
+
+  static Fallen fallen_not(const Loss& loss, const char* why) { return {.jump = not_found(loss.at.lambda, why)}; }
+
+  // Where a motion from a state beside the event ends. Empty where it returns to the event: where its energy at rest is
+  // not below that of the event, if that is given.
+  std::optional<Fallen> fall_from(const Loss& loss, const State& beside, std::optional<double> above = {}) {
+    const Descent descent = descend(mesh_.system(), beside, model_.options().factorization, left_);
+    switch (descent.end) {
+      case DescentEnd::falls_away:
+        return Fallen{
+            .jump = std::make_shared<RecordJump>(RecordJump{.reason = "no_equilibrium",
+                                                            .why = "the structure finds no equilibrium at this load",
+                                                            .lambda = loss.at.lambda})};
+      case DescentEnd::cut_off:
+        return fallen_not(loss, took_too_long);
+      case DescentEnd::not_found:
+        return fallen_not(loss, no_rest);
+      case DescentEnd::at_rest:
+        break;
+    }
+    const double energy = mesh_.system().energy(descent.state);
+    if (above && !(*above - energy > energy_lost * std::max(std::abs(*above), std::abs(energy)))) return std::nullopt;
+    Fallen fallen{.jump = std::make_shared<RecordJump>(RecordJump{.lambda = loss.at.lambda}), .rest = descent.state};
+    settle(loss, fallen.rest, *fallen.jump);
+    return fallen;
   }
 
   // The state at rest in the path's own formulation, counted.
@@ -310,7 +333,7 @@ class Falls {
     const Vector x = found ? mesh_.unknowns(*found) : rest.x.head(mesh_.size());
     const OnPath* nearest = nullptr;
     const std::vector<OnPath> stable = stable_at(model_, record_, loss.at.lambda, loss.point);
-    double least = found ? DeckMesh::same_on_path : DeckMesh::same_of_nodes;
+    double least = found ? mesh_.same_on_path() : mesh_.same_of_nodes();
     for (const OnPath& one : stable) {
       const double far = mesh_.distance(mesh_.unknowns(one.state), x);
       if (far > least) continue;
@@ -326,7 +349,7 @@ class Falls {
       rest = *found;
     } else {
       jump.reason = "not_found";
-      jump.why = "its state lies on no traced branch, and with moving contact points it was not found there";
+      jump.why = not_of_path;
       return;
     }
     tell_state(model_, rest, jump);
@@ -341,7 +364,7 @@ class Falls {
     for (const State& guess : mesh_.in_path_formulation(rest)) {
       const auto found = equilibrium_at_lambda(model_.system(), guess, model_.options());
       if (found && found->count.unstable == 0 &&
-          mesh_.distance(mesh_.unknowns(found->state), x) <= DeckMesh::same_of_nodes)
+          mesh_.distance(mesh_.unknowns(found->state), x) <= mesh_.same_of_nodes())
         return found->state;
     }
     return std::nullopt;

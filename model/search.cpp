@@ -25,7 +25,7 @@ constexpr double least_push = 0.02, greatest_push = 0.5;
 
 bool is_one(const DeckMesh& mesh, const CountedState& a, const CountedState& b) {
   return a.count.unstable == b.count.unstable &&
-         mesh.distance(mesh.unknowns(a.state), mesh.unknowns(b.state)) <= DeckMesh::same_on_path;
+         mesh.distance(mesh.unknowns(a.state), mesh.unknowns(b.state)) <= mesh.same_on_path();
 }
 
 // Whether the mesh tells how the body bends: else the state may be none of the body.
@@ -114,7 +114,7 @@ class SearchAt {
     DeflatedNewton plain(mesh_.system(), DeflatedNewton::Contacts::follow, model_.options().factorization);
     const DeflatedResult result = plain.from(nodal(x));
     const bool is_near =
-        result.end == DeflatedEnd::arrived && mesh_.distance(unknowns(result.state), x) <= DeckMesh::same_of_nodes;
+        result.end == DeflatedEnd::arrived && mesh_.distance(unknowns(result.state), x) <= mesh_.same_of_nodes();
     return is_near ? result.state : nodal(x);
   }
 
@@ -143,9 +143,9 @@ class SearchAt {
 
   bool is_known(const OfShape& shape) const {
     const auto is_it = [&](const OfShape& known) {
-      return known.unstable == shape.unstable && mesh_.distance(known.x, shape.x) <= DeckMesh::same_on_path;
+      return known.unstable == shape.unstable && mesh_.distance(known.x, shape.x) <= mesh_.same_on_path();
     };
-    const auto is_near = [&](const Vector& x) { return mesh_.distance(x, shape.x) <= DeckMesh::same_of_nodes; };
+    const auto is_near = [&](const Vector& x) { return mesh_.distance(x, shape.x) <= mesh_.same_of_nodes(); };
     return std::any_of(known_.begin(), known_.end(), is_it) ||
            std::any_of(nearly_known_.begin(), nearly_known_.end(), is_near);
   }
