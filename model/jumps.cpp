@@ -33,6 +33,8 @@ constexpr double more_work = 4e5, more_work_for_essenburg = 1e5;
 constexpr const char* took_too_long = "the time limit of the jumps was met: twice the time of the tracing";
 constexpr const char* not_of_path =
     "its state lies on no traced branch, and with moving contact points it was not found there";
+constexpr const char* several_modes =
+    "several modes become unstable at once, as of equal parts: imperfections decide where the structure moves";
 constexpr const char* no_rest = "the motion did not come to rest";
 
 // Stable equilibria of a record at a λ, but not beside the event at point `but` if it is one of the record's.
@@ -63,6 +65,7 @@ void tell_state(const Model& model, const State& state, RecordJump& jump) {
 // Where a stable structure loses its stability.
 struct Loss {
   EventKind kind = EventKind::limit_point;
+  Index modes = 1;  // that become unstable
   State at{};
   double energy = 0.0;
   std::optional<State> behind{};       // a state of the path, or of a branch that leaves it there, just behind
@@ -74,6 +77,11 @@ struct Loss {
 bool loses_stability(const auto& event) {
   const bool is_inside = event.kind != EventKind::start && event.kind != EventKind::end;
   return is_inside && !event.unconfirmed && event.unstable_before == 0 && event.unstable_after.value_or(0) > 0;
+}
+
+// In either direction of the path, as one side of the event is stable.
+Index modes_lost(const RecordEvent& event) {
+  return std::max(event.unstable_before.value_or(0), event.unstable_after.value_or(0));
 }
 
 std::shared_ptr<RecordJump> not_found(double lambda, const char* why) {
@@ -112,7 +120,8 @@ class Falls {
   Fall beyond(const Event& event, const PathPoint& behind) {
     if (!mesh_.is_complete())
       return {.jump = not_found(event.state.lambda, "the deck's mesh has unknowns that its contact does not")};
-    Loss loss{.kind = event.kind, .at = event.state, .energy = model_.energy(event.state)};
+    Loss loss{
+        .kind = event.kind, .modes = *event.unstable_after, .at = event.state, .energy = model_.energy(event.state)};
     if (event.branching && event.branching->mode.dx.size() == event.branching->state.x.size()) {
       const BranchPoint& point = *event.branching;
       const Metric metric(model_.system().weights(point.state.active_set), 1.0);
@@ -211,7 +220,7 @@ class Falls {
   // An event at a point of the record, of which the points in the direction `onwards` are behind it.
   Loss recorded(const RecordEvent& event, std::size_t point, int onwards) const {
     const RecordPoint& here = record_.points[point];
-    Loss loss{.kind = event.kind, .at = here.state, .energy = here.energy, .point = point};
+    Loss loss{.kind = event.kind, .modes = modes_lost(event), .at = here.state, .energy = here.energy, .point = point};
     loss.at.lambda = event.lambda;
     for (auto i = static_cast<std::ptrdiff_t>(point) + onwards;
          i >= 0 && i < static_cast<std::ptrdiff_t>(record_.points.size()); i += onwards) {
@@ -265,7 +274,10 @@ class Falls {
       if (model_.adrift(arc->to.state)) return std::nullopt;
       for (const Event& event : arc->events) {
         if (!loses_stability(event)) continue;
-        found = Loss{.kind = event.kind, .at = event.state, .energy = model_.energy(event.state)};
+        found = Loss{.kind = event.kind,
+                     .modes = *event.unstable_after,
+                     .at = event.state,
+                     .energy = model_.energy(event.state)};
         if (event.branching && event.branching->mode.dx.size() == event.state.x.size())
           found->behind = moved(event.state, event.branching->mode, along_mode);
       }
@@ -281,6 +293,7 @@ class Falls {
                                         model_.options().factorization, left_);
     if (valley.end == ValleyEnd::cut_off) return fallen_not(loss, took_too_long);
     if (valley.end == ValleyEnd::leads_back) return {};
+    if (valley.end == ValleyEnd::unclear && loss.modes > 1) return fallen_not(loss, several_modes);
     Fallen fallen{};
     if (valley.end == ValleyEnd::leads_away) {
       fallen = *fall_from(loss, valley.state);

@@ -131,5 +131,13 @@ TEST(LocalJump, OfFortyCellsOneAfterTheOther) {
   }
 }
 
+TEST(LocalJump, IsNotToldWhereEqualCellsLoseTheirStabilityTogether) {
+  const TracedDeck traced(stack(std::vector<Cell>(5), 0.0, "step = 0.1\nstop.lambda = [-5.0, 3.0]\n"));
+  const auto jumps = jumps_of(traced);
+  ASSERT_FALSE(jumps.empty());
+  EXPECT_EQ(jumps.front()->reason, "not_found");
+  EXPECT_NE(jumps.front()->why.find("several modes"), std::string::npos) << jumps.front()->why;
+}
+
 }  // namespace
 }  // namespace arcwall::local_jumps_test
