@@ -27,7 +27,9 @@ double& entry(SparseMatrix& A, Index row, Index column) {
 
 MultiplierContact::MultiplierContact(const Equations& inner, std::vector<Candidate> candidates,
                                      const ContactScales& scales, const ContactLaw& law)
-    : inner_(inner), candidates_(std::move(candidates)), scales_(scales) {
+    : inner_(inner), scales_(scales) {
+  for (Candidate& candidate : candidates)
+    (candidate.point().unknowns().empty() ? held_ : candidates_).push_back(std::move(candidate));
   for (const Candidate& candidate : candidates_) {
     const double k = law.stiffness * candidate.label().tributary;
     Springs springs;
@@ -235,11 +237,22 @@ Vector MultiplierContact::transfer(const Vector& x, const ActiveSet& from, const
 
 StepVerdict MultiplierContact::check(const CheckedStep& step) const {
   using Fault = StepVerdict::Fault;
-  if (step.located) return {.fault = passes_through(step.from, step.to) ? Fault::wall_crossed : Fault::none};
+  if (step.located) {
+    if (passes_through(step.from, step.to)) return {.fault = Fault::wall_crossed};
+    for (const Candidate& held : held_)
+      if (enters(held, step.from, step.to)) return {.fault = Fault::wall_crossed, .place = words_of(held.label())};
+    return {};
+  }
   for (std::size_t j = 0; j < candidates_.size(); ++j)
     if (step.to.active_set[j] && !candidates_[j].faces_wall(step.to))
       return {.fault = Fault::wall_left, .place = words_of(candidates_[j].label())};
   return {.fault = comes_behind_an_end(step.from, step.to) ? Fault::behind_end : Fault::none};
+}
+
+// Whether a point that supports hold, which no contact force moves, and its wall are pressed into each other.
+bool MultiplierContact::enters(const Candidate& held, const State& from, const State& to) const {
+  const double touching = 1e-9 * scales_.length, before = held.gap(from);
+  return std::isfinite(before) && before >= -touching && held.gap(to) < -touching;
 }
 
 bool MultiplierContact::passes_through(const State& from, const State& to) const {

@@ -34,8 +34,8 @@ struct ContactLaw {
 /// guard.
 class MultiplierContact final : public System, public ContactQuery {
  public:
-  /// `inner` must outlive this. Methods other than `rigid` need candidates with tributary
-  /// lengths.
+  /// `inner` must outlive this. Methods other than `rigid` need candidates with tributary lengths. Candidates whose
+  /// points have no unknowns stand last; they are no contacts, but no step leads over their walls.
   MultiplierContact(const Equations& inner, std::vector<Candidate> candidates, const ContactScales& scales,
                     const ContactLaw& law = {});
 
@@ -91,11 +91,13 @@ class MultiplierContact final : public System, public ContactQuery {
   double open_guard(Index j, const State& state) const;
   ContactPoint told(const State& state, std::size_t j, double force) const;
   void lay_out(const State& state, Linearization& out) const;
+  bool enters(const Candidate& held, const State& from, const State& to) const;
   bool passes_through(const State& from, const State& to) const;
   bool comes_behind_an_end(const State& from, const State& to) const;
 
   const Equations& inner_;
   std::vector<Candidate> candidates_;
+  std::vector<Candidate> held_;  // whose points do not move but by λ
   ContactScales scales_;
   std::vector<Springs> springs_;
 };

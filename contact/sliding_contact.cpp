@@ -91,18 +91,36 @@ Row guard_gradient_of_contact(const SlidingSetting& setting, const SlidingState&
   return row;
 }
 
+// The name of an end that supports hold and that an obstacle has reached on the way between two states.
+std::optional<std::string> entered_held_end(const SlidingSetting& setting, const SlidingState& from,
+                                            const SlidingState& to) {
+  const double touching = sliding::touching_at_rest * setting.scales.length;
+  for (const FreeEnd& end : setting.held_ends) {
+    const auto gap = [&](const SlidingState& at) {
+      return sliding::face_gap(setting, sliding::touch_of_end(setting, at.layout, end), at);
+    };
+    const double before = gap(from);
+    if (!std::isfinite(before) || before < -touching || gap(to) >= -touching) continue;
+    const double s = end.last ? setting.body.length(end.strand) : 0.0;
+    const auto [member, fraction] = setting.body.label({.strand = end.strand, .s = s});
+    return words_of({.wall = setting.obstacles[end.obstacle].name, .member = member, .fraction = fraction});
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 SlidingContact::SlidingContact(const SlidingBody& body, std::vector<SlidingObstacle> obstacles,
                                const ContactScales& scales, ContinuumChoice continuum) {
   const auto layout = plain_layout(body);
   const Vector x = body.rest(layout->mesh(), Vector()), s;
-  std::vector<FreeEnd> ends = free_ends(body, obstacles, layout->mesh(), {.x = x, .s = s, .lambda = 0.0});
-  const State rest{.x = x, .lambda = 0.0, .active_set = ActiveSet(ends.size(), 0, layout)};
+  BodyEnds ends = ends_beside_obstacles(body, obstacles, layout->mesh(), {.x = x, .s = s, .lambda = 0.0});
+  const State rest{.x = x, .lambda = 0.0, .active_set = ActiveSet(ends.free.size(), 0, layout)};
   auto setting = std::make_unique<SlidingSetting>(SlidingSetting{.body = body,
                                                                  .obstacles = std::move(obstacles),
                                                                  .scales = scales,
-                                                                 .free_ends = std::move(ends),
+                                                                 .free_ends = std::move(ends.free),
+                                                                 .held_ends = std::move(ends.held),
                                                                  .continuum = continuum});
   setting->pinches = sliding::pinches_at_rest(*setting, SlidingState(rest));
   open_ = sliding::pinched_active_set(*setting, SlidingState(rest));
@@ -239,6 +257,8 @@ StepVerdict SlidingContact::check(const CheckedStep& step) const {
   const SlidingState from(step.from), to(step.to);
   const CheckedStep::LocatedEnd& end = *step.located;
   if (sliding::passes_through(*setting_, from, to)) return {.fault = StepVerdict::Fault::wall_crossed};
+  if (auto place = entered_held_end(*setting_, from, to))
+    return {.fault = StepVerdict::Fault::wall_crossed, .place = std::move(*place)};
   StepVerdict verdict;
   const auto restart_with = [&](std::optional<Transition> layout) {
     if (layout) verdict.restarts.push_back(std::move(*layout));

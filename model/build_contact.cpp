@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <unordered_map>
@@ -328,7 +329,7 @@ PinchedPlaces pinched_places(const deck::Deck& deck, const SlidingStructure& str
 
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure,
                                           const PinchedPlaces& known, DeckProblems& problems) {
-  std::vector<Candidate> candidates;
+  std::vector<Candidate> candidates, held;
   std::vector<TouchAtRest> touches;
   const double round_off = 1e-12 * structure.length_scale();
   const State rest{.x = Vector::Zero(structure.size({}))};
@@ -369,7 +370,10 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
             deepest.depth = -gap;
             deepest.label = candidate.label();
           }
-          if (!movable) continue;
+          if (!movable) {
+            held.push_back(std::move(candidate));
+            continue;
+          }
           if (std::abs(gap) <= round_off && changes(candidate, rest))
             touches.push_back({.wall = &wall,
                                .node = section.node,
@@ -391,6 +395,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
   }
   constexpr double near = 1e-6;  // of the structure's length
   join_opposite(touches, known, near * structure.length_scale(), candidates, problems);
+  std::move(held.begin(), held.end(), std::back_inserter(candidates));
   return candidates;
 }
 

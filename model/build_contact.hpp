@@ -45,7 +45,7 @@ PinchedPlaces pinched_places(const deck::Deck& deck, const SlidingStructure& str
 
 /// Every node of a wall's members against the wall: on the face that looks at it, or on the axis. Adds a problem for
 /// each wall that a member penetrates at the start, and for walls without clearance on both sides of a node that it is
-/// not known how to hold; `known`: where it is known without nodes.
+/// not known how to hold; `known`: where it is known without nodes. Points that supports hold stand last.
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure,
                                           const PinchedPlaces& known, DeckProblems& problems);
 

@@ -25,9 +25,9 @@ bool roller_touches(const SlidingObstacle& obstacle, const AxisPlace& at, double
 
 }  // namespace
 
-std::vector<FreeEnd> free_ends(const SlidingBody& body, const std::vector<SlidingObstacle>& obstacles,
+BodyEnds ends_beside_obstacles(const SlidingBody& body, const std::vector<SlidingObstacle>& obstacles,
                                const SlidingMesh& mesh, const MeshState& rest) {
-  std::vector<FreeEnd> ends;
+  std::vector<FreeEnd> ends, held;
   std::map<std::tuple<std::size_t, Index, bool>, std::size_t> known;  // obstacle, strand, last: which of the ends
   for (Index strand = 0; strand < body.strands(); ++strand)
     for (std::size_t w = 0; w < obstacles.size(); ++w)
@@ -38,7 +38,11 @@ std::vector<FreeEnd> free_ends(const SlidingBody& body, const std::vector<Slidin
         const bool may_touch = !body.end_is_held(strand, last) || body.is_on_plane(strand, last) ||
                                (slides && roller_touches(obstacles[w], at, body.half_height(strand),
                                                          sliding::touching_at_rest * body.length(strand)));
-        if (!obstacles[w].concerns(strand) || !may_touch) continue;
+        if (!obstacles[w].concerns(strand)) continue;
+        if (!may_touch) {
+          held.push_back(end);
+          continue;
+        }
         const StrandEnd first = body.first_of_joint(strand, last, !obstacles[w].on_face);
         const auto same = known.find({w, first.strand, first.last});
         if (same != known.end()) {
@@ -50,7 +54,7 @@ std::vector<FreeEnd> free_ends(const SlidingBody& body, const std::vector<Slidin
         known[{w, strand, last}] = ends.size();
         ends.push_back(end);
       }
-  return ends;
+  return {.free = std::move(ends), .held = std::move(held)};
 }
 
 }  // namespace arcwall

@@ -61,6 +61,7 @@ struct SlidingSetting {
   std::vector<SlidingObstacle> obstacles{};
   ContactScales scales{};
   std::vector<FreeEnd> free_ends{};
+  std::vector<FreeEnd> held_ends{};  ///< those which no contact force moves; λ may press them and obstacles together
   ContinuumChoice continuum = ContinuumChoice::symmetric;
   std::vector<Pinch> pinches{};  ///< along the strands, in their order
 
@@ -84,8 +85,13 @@ struct SlidingSetting {
   }
 };
 
-/// The free ends of a body that obstacles concern; `rest`: the stress-free state of a mesh of it.
-std::vector<FreeEnd> free_ends(const SlidingBody& body, const std::vector<SlidingObstacle>& obstacles,
+/// The ends of a body that obstacles concern.
+struct BodyEnds {
+  std::vector<FreeEnd> free{}, held{};
+};
+
+/// Returns them; `rest`: the stress-free state of a mesh of the body.
+BodyEnds ends_beside_obstacles(const SlidingBody& body, const std::vector<SlidingObstacle>& obstacles,
                                const SlidingMesh& mesh, const MeshState& rest);
 
 }  // namespace arcwall
