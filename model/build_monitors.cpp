@@ -167,7 +167,13 @@ std::shared_ptr<const Observable> member_force(const Measured& from, const std::
 std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Place& place, deck::Component component) {
   const Structure& structure = from.structure;
   const Places::Node node = from.places.find(place, structure.members());
-  const std::vector<End> at = ends_of(from, place);
+  std::vector<End> at = ends_of(from, place);
+  // A point's rotation is that which its members share, not that of a hinged end.
+  if (const auto shared = from.places.rotations.find(place.name);
+      !place.fraction && shared != from.places.rotations.end())
+    std::stable_partition(at.begin(), at.end(), [&](const End& end) {
+      return end.mesh->rotations[end.position] == std::optional(shared->second);
+    });
   if (component == deck::Component::axial_force || component == deck::Component::moment)
     return member_force(from, at, component);
   if (const auto dof = reaction_dof(component)) {

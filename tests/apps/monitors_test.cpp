@@ -62,6 +62,28 @@ const std::vector<std::string> beam_theories{"theory = \"euler-bernoulli\"", "th
                                              "theory = \"reissner\", order = 1", "theory = \"reissner\"",
                                              "theory = \"essenburg\", along = \"director\""};
 
+// Of two members at a point one has a hinge there: the point turns with the other, whichever the deck names first.
+TEST(RotationMonitor, OfAPointIsNotThatOfAHingedEnd) {
+  const std::string hinged = "[member.c]\nfrom = \"a\"\nto = \"b\"\nhinge = [\"to\"]\n",
+                    stiff = "[member.d]\nfrom = \"b\"\nto = \"d\"\n",
+                    common = "theory = \"euler-bernoulli\"\nmaterial = \"m\"\nsection = \"s\"\nelements = 4\n";
+  for (const bool first : {true, false}) {
+    const std::string members = first ? hinged + common + stiff + common : stiff + common + hinged + common;
+    const test::TracedDeck traced(R"toml(
+title = "A hinge beside a point that is turned"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1.0e4, I = 1.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0], d = [2.0, 0.0] }
+support = { a = ["x", "z", "rotation"], d = ["x", "z", "rotation"] }
+prescribed = [{ at = "b", rotation = 1.0e-3 }]
+path = { step = 0.1, branches = "primary", stop = { lambda = [-1.0, 1.0] } }
+monitor = [{ name = "turned", at = "b", component = "rotation" }, { name = "end", at = "c:1", component = "rotation" }]
+)toml" + members);
+    EXPECT_NEAR(traced.record().points.back().monitors[0], 1e-3, 1e-12) << first;
+    EXPECT_LT(traced.record().points.back().monitors[1], 0.0) << first;
+  }
+}
+
 }  // namespace
 
 // A load at the tip, which goes far: what the clamp carries is the load times its arm, by the places of the run.
