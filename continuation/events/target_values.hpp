@@ -13,9 +13,11 @@ inline double excess(const TargetValue& target, const State& state) {
   return target.quantity->value(state) - target.value;
 }
 
-/// Differences below this are round-off: the value is met. `v0`, `v1`: excesses at both ends of a stretch.
+/// Differences below this are round-off: the value is met. `v0`, `v1`: excesses at both ends of a stretch, which give
+/// the scale of a value that is zero. Of another value a state meets it or not, whatever lies beyond.
 inline double excess_noise(const TargetValue& target, double v0, double v1) {
-  return std::max(1e-11 * std::max({std::abs(target.value), std::abs(v0), std::abs(v1)}), target.roundoff);
+  const double scale = target.value != 0.0 ? std::abs(target.value) : std::max(std::abs(v0), std::abs(v1));
+  return std::max(1e-11 * scale, target.roundoff);
 }
 
 /// Whether the value lies between two states, or at the second one; one that is met at the first does not count.

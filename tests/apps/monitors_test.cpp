@@ -84,6 +84,23 @@ monitor = [{ name = "turned", at = "b", component = "rotation" }, { name = "end"
   }
 }
 
+// The first point lies so near a bound that the step after it is longer by twelve digits.
+TEST(StopBounds, AreMetBehindAPointThatAlmostMeetsThem) {
+  const test::TracedDeck traced(R"toml(
+title = "A step that ends almost at a bound"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1.0e4, I = 1.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0] }
+support = { a = ["x", "z", "rotation"] }
+member.c = { from = "a", to = "b", theory = "euler-bernoulli", material = "m", section = "s", elements = 4 }
+prescribed = [{ at = "b", z = 1.0e-5 }]
+monitor = [{ name = "w", at = "b", component = "z" }]
+path = { step = 1.0, branches = "primary", max_points = 60, stop = { lambda = [-1.0, 1.0], w = [-1.0, 0.5] } }
+)toml");
+  EXPECT_EQ(traced.record().branches.back().end->reason, EndReason::stop);
+  EXPECT_NEAR(traced.last().lambda, 1.0, 1e-10);
+}
+
 }  // namespace
 
 // A load at the tip, which goes far: what the clamp carries is the load times its arm, by the places of the run.
