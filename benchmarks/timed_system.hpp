@@ -114,7 +114,9 @@ class TimedSystem final : public System {
   }
   std::string watched_place(const State& state, Index j) const override { return inner_.watched_place(state, j); }
   Index separate_contacts(const ActiveSet& active_set) const override { return inner_.separate_contacts(active_set); }
-  bool may_have_kink(const State& from, const State& to) const override { return inner_.may_have_kink(from, to); }
+  std::optional<PathKink> kink_between(const State& from, const State& to) const override {
+    return inner_.kink_between(from, to);
+  }
   ActiveSet canonical_active_set(const State& state) const override {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.canonical_active_set(state);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/passing.hpp"
+#include "contact/wall_kink.hpp"
 #include "core/algebra/assembly.hpp"
 
 namespace arcwall {
@@ -22,6 +23,31 @@ double& entry(SparseMatrix& A, Index row, Index column) {
   assert(at != last && *at == row);
   return A.valuePtr()[at - A.innerIndexPtr()];
 }
+
+// How far a candidate's point is past a kink of its wall [length].
+class PastKink final : public Observable {
+ public:
+  PastKink(const Candidate& candidate, const WallKink& kink) : candidate_(candidate), kink_(kink) {}
+  double value(const State& state) const override {
+    return past_kink(candidate_.obstacle(), kink_, candidate_.point().position(state), state.lambda).value;
+  }
+  Row gradient(const State& state) const override {
+    PointKinematics at;
+    candidate_.point().kinematics(state, at);
+    const LinearField past = past_kink(candidate_.obstacle(), kink_, at.position, state.lambda);
+    Row row{.dx = Vector::Zero(state.x.size()), .dlambda = past.rate + past.x * at.rate.x() + past.z * at.rate.y()};
+    const std::vector<Index>& unknowns = candidate_.point().unknowns();
+    for (std::size_t i = 0; i < unknowns.size(); ++i) {
+      const auto local = static_cast<Index>(i);
+      row.dx[unknowns[i]] += past.x * at.jacobian(0, local) + past.z * at.jacobian(1, local);
+    }
+    return row;
+  }
+
+ private:
+  const Candidate& candidate_;
+  WallKink kink_;
+};
 
 }  // namespace
 
@@ -267,14 +293,20 @@ bool MultiplierContact::passes_through(const State& from, const State& to) const
   return false;
 }
 
-bool MultiplierContact::may_have_kink(const State& from, const State& to) const {
-  const auto curvature = [](const Candidate& candidate, const State& at) {
-    return candidate.obstacle().curvature(candidate.point().position(at), at.lambda).value;
-  };
-  for (std::size_t j = 0; j < candidates_.size(); ++j)
-    if (from.active_set[j] && curvature_jumps(curvature(candidates_[j], from), curvature(candidates_[j], to)))
-      return true;
-  return false;
+std::optional<PathKink> MultiplierContact::kink_between(const State& from, const State& to) const {
+  std::optional<WallKink> first;
+  const Candidate* of = nullptr;
+  for (std::size_t j = 0; j < candidates_.size(); ++j) {
+    if (!from.active_set[j]) continue;
+    const TrackedPoint& point = candidates_[j].point();
+    const auto kink = first_kink(candidates_[j].obstacle(), {.from = point.position(from), .to = point.position(to)},
+                                 from.lambda, to.lambda);
+    if (!kink || (first && first->part <= kink->part)) continue;
+    first = kink;
+    of = &candidates_[j];
+  }
+  if (!first) return std::nullopt;
+  return PathKink{.past = std::make_shared<PastKink>(*of, *first)};
 }
 
 bool MultiplierContact::comes_behind_an_end(const State& from, const State& to) const {

@@ -65,7 +65,7 @@ class MultiplierContact final : public System, public ContactQuery {
   double multiplier_scale() const override { return scales_.force; }
   Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override;
   StepVerdict check(const CheckedStep& step) const override;
-  bool may_have_kink(const State& from, const State& to) const override;
+  std::optional<PathKink> kink_between(const State& from, const State& to) const override;
 
   const Candidate& candidate(Index j) const { return candidates_[static_cast<std::size_t>(j)]; }
   const ContactScales& scales() const { return scales_; }

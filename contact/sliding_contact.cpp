@@ -7,6 +7,7 @@
 #include "contact/passing.hpp"
 #include "contact/sliding/bounds/edge_presses.hpp"
 #include "contact/sliding/contact_points.hpp"
+#include "contact/sliding/curvature_jumps.hpp"
 #include "contact/sliding/equations.hpp"
 #include "contact/sliding/inserted_contact.hpp"
 #include "contact/sliding/least_gaps.hpp"
@@ -330,18 +331,22 @@ Index SlidingContact::separate_contacts(const ActiveSet& active_set) const {
   return count;
 }
 
-bool SlidingContact::may_have_kink(const State& from, const State& to) const {
+std::optional<PathKink> SlidingContact::kink_between(const State& from, const State& to) const {
   const SlidingState before(from), behind(to);
-  const auto curvature = [&](const sliding::Touch& touch, const SlidingState& at) {
-    const Vec2 place = sliding::face(touch.offset, touch.axis(at));
-    return setting_->obstacles[touch.obstacle].surface->curvature(place, at.now.lambda).value;
-  };
+  std::optional<WallKink> first;
+  std::size_t of = 0;
   for (std::size_t j = 0; j < before.contacts(); ++j) {
     if (!before.is_closed(j)) continue;
     const sliding::Touch touch = sliding::touch_of_contact(*setting_, before.layout, j);
-    if (curvature_jumps(curvature(touch, before), curvature(touch, behind))) return true;
+    const auto place = [&](const SlidingState& at) { return sliding::face(touch.offset, touch.axis(at)); };
+    const auto kink = first_kink(*setting_->obstacles[touch.obstacle].surface,
+                                 {.from = place(before), .to = place(behind)}, from.lambda, to.lambda);
+    if (!kink || (first && first->part <= kink->part)) continue;
+    first = kink;
+    of = j;
   }
-  return false;
+  if (!first) return std::nullopt;
+  return PathKink{.past = std::make_shared<sliding::PastKink>(*setting_, of, *first)};
 }
 
 ActiveSet SlidingContact::canonical_active_set(const State& state) const {

@@ -63,7 +63,7 @@ class SlidingContact final : public System, public ContactQuery {
                                       double tolerance) const override;
   StepVerdict check(const CheckedStep& step) const override;
   std::optional<std::string> penetrated_place(const State& state, double margin) const override;
-  bool may_have_kink(const State& from, const State& to) const override;
+  std::optional<PathKink> kink_between(const State& from, const State& to) const override;
   Index separate_contacts(const ActiveSet& active_set) const override;
   ActiveSet canonical_active_set(const State& state) const override;
 

@@ -15,6 +15,10 @@ inline constexpr double mesh_error = 1e-6;
 /// Accuracy of points near a singular point [path metric].
 inline constexpr double singular_point_accuracy = 1e-5;
 
+/// Distance past a kink of the path of the point that stands for it: far enough for round-off to tell the side [path
+/// metric].
+inline constexpr double kink_accuracy = 1e-12;
+
 /// Distance from a branch point at which the unstable directions of an outgoing branch are counted, over its first
 /// step.
 inline constexpr double just_behind = 0.05;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/path_kink.hpp"
 #include "core/step_verdict.hpp"
 #include "core/unilateral_system.hpp"
 
@@ -42,9 +43,11 @@ class System : public UnilateralSystem {
   /// none. The location may have no name.
   virtual std::optional<std::string> penetrated_place(const State&, double /*margin*/) const { return std::nullopt; }
 
-  /// Returns true if the path between two states with one active set may have a kink: a closed contact passes a jump of
-  /// the obstacle's curvature, for example the begin of a rounded corner.
-  virtual bool may_have_kink(const State& /*from*/, const State& /*to*/) const { return false; }
+  /// Returns the first kink that the path may have between two states with one active set: a closed contact passes a
+  /// jump of the obstacle's curvature, for example the begin of a rounded corner. `to` need be no equilibrium.
+  virtual std::optional<PathKink> kink_between(const State& /*from*/, const State& /*to*/) const {
+    return std::nullopt;
+  }
 
   /// Returns the number of separate closed contacts; those of one contact zone count as one.
   virtual Index separate_contacts(const ActiveSet& active_set) const {

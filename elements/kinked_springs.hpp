@@ -82,7 +82,9 @@ class KinkedSprings final : public System {
   std::optional<std::string> penetrated_place(const State& state, double margin) const override {
     return inner_.penetrated_place(state, margin);
   }
-  bool may_have_kink(const State& from, const State& to) const override { return inner_.may_have_kink(from, to); }
+  std::optional<PathKink> kink_between(const State& from, const State& to) const override {
+    return inner_.kink_between(from, to);
+  }
   ActiveSet canonical_active_set(const State& state) const override {
     return inner_.canonical_active_set(state).with_kinks_of(state.active_set);
   }

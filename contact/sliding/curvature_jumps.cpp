@@ -24,29 +24,30 @@ std::optional<CurvatureJump> curvature_jump_beside(const SlidingSetting& setting
   return CurvatureJump{.distance = from * reach, .here = near, .behind = behind, .place = here + beyond * way};
 }
 
-BeyondJump::BeyondJump(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
-                       const CurvatureJump& jump, double to, std::size_t point)
-    : setting_(setting), point_(point), sign_(to) {
+WallKink kink_at(const SlidingSetting& setting, const SlidingState& at, const Touch& touch, const CurvatureJump& jump,
+                 double to) {
   const Obstacle& wall = *setting.obstacles[touch.obstacle].surface;
   const Vec2 along = unit_tangent(touch.axis(at).angle);
   const Vec2 behind = jump.place + setting.scales.length * along;
-  at_rest_.place = wall.seen_at_rest(jump.place, at.now.lambda);
-  at_rest_.tangent = (wall.seen_at_rest(behind, at.now.lambda) - at_rest_.place).normalized();
+  WallKink kink{.sense = to};
+  kink.at.place = wall.seen_at_rest(jump.place, at.now.lambda);
+  kink.at.tangent = (wall.seen_at_rest(behind, at.now.lambda) - kink.at.place).normalized();
+  return kink;
 }
 
-double BeyondJump::value(const State& state) const {
+double PastKink::value(const State& state) const {
   const SlidingState at(state);
-  const Touch touch = touch_of_contact(setting_, at.layout, point_);
-  return sign_ * beyond(*setting_.obstacles[touch.obstacle].surface, at_rest_, touch, at).value;
+  const Touch touch = touch_of_contact(setting_, at.layout, contact_);
+  return kink_.sense * beyond(*setting_.obstacles[touch.obstacle].surface, kink_.at, touch, at).value;
 }
 
-Row BeyondJump::gradient(const State& state) const {
+Row PastKink::gradient(const State& state) const {
   const SlidingState at(state);
-  const Touch touch = touch_of_contact(setting_, at.layout, point_);
-  const NodeFunction far = beyond(*setting_.obstacles[touch.obstacle].surface, at_rest_, touch, at);
+  const Touch touch = touch_of_contact(setting_, at.layout, contact_);
+  const NodeFunction far = beyond(*setting_.obstacles[touch.obstacle].surface, kink_.at, touch, at);
   Row row = at.no_slope();
-  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), sign_ * far.gradient, row.dx);
-  row.dlambda = sign_ * far.rate;
+  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), kink_.sense * far.gradient, row.dx);
+  row.dlambda = kink_.sense * far.rate;
   return row;
 }
 

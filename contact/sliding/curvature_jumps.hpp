@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "contact/sliding/touch.hpp"
+#include "contact/wall_kink.hpp"
 #include "core/observable.hpp"
 
 namespace arcwall::sliding {
@@ -19,21 +20,24 @@ struct CurvatureJump {
 std::optional<CurvatureJump> curvature_jump_beside(const SlidingSetting& setting, const Touch& touch,
                                                    const AxisPlace& axis, double to, double reach, double lambda);
 
-/// How far a tracked point is beyond such a place, along the body or against it [length].
-class BeyondJump final : public Observable {
+/// Returns the same as a kink that a contact passes which moves with the axis (`to` = 1) or against it. `touch`: one
+/// beside the place, at a state.
+WallKink kink_at(const SlidingSetting& setting, const SlidingState& at, const Touch& touch, const CurvatureJump& jump,
+                 double to);
+
+/// How far a contact is past a kink of its wall [length].
+class PastKink final : public Observable {
  public:
-  /// `touch`: one beside the place, at a state, from which the body comes to it with the axis (`to` = 1) or against it.
-  /// `point`: the tracked point of the states that it is asked about.
-  BeyondJump(const SlidingSetting& setting, const SlidingState& at, const Touch& touch, const CurvatureJump& jump,
-             double to, std::size_t point);
+  /// `contact`: its number in the active set of the states that the quantity is asked about.
+  PastKink(const SlidingSetting& setting, std::size_t contact, const WallKink& kink)
+      : setting_(setting), contact_(contact), kink_(kink) {}
   double value(const State& state) const override;
   Row gradient(const State& state) const override;
 
  private:
   const SlidingSetting& setting_;
-  std::size_t point_;
-  CurvatureRateJump at_rest_{};
-  double sign_;
+  std::size_t contact_;
+  WallKink kink_;
 };
 
 }  // namespace arcwall::sliding

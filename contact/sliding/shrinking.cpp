@@ -212,7 +212,7 @@ std::optional<Transition> joined_at_jump(const SlidingSetting& setting, const Sl
   const auto jump = curvature_jump_beside(setting, touch, touch.axis(at), to, beside * L, at.now.lambda);
   if (!jump) return std::nullopt;
   Transition transition = joined(setting, at, {gap}, to * (jump->distance + guessed * L));
-  transition.quantity = std::make_shared<BeyondJump>(setting, at, touch, *jump, to, gap);
+  transition.quantity = std::make_shared<PastKink>(setting, gap, kink_at(setting, at, touch, *jump, to));
   transition.value = beyond * L;
   transition.contacts = {static_cast<Index>(gap)};
   return transition;

@@ -390,9 +390,11 @@ std::optional<std::string> EventSystem::penetrated_place(const State& state, dou
   return border_fits_at(state, *member) ? std::nullopt : std::optional<std::string>(std::string());
 }
 
-bool EventSystem::may_have_kink(const State& from, const State& to) const {
+// Its place is one of the member's unknowns.
+std::optional<PathKink> EventSystem::kink_between(const State& from, const State& to) const {
   const auto begin = family_.at(to.lambda, in_common_terms(from)), end = at(to);
-  return begin && end && end->system->may_have_kink(begin->state, end->state);
+  if (!begin || !end || !end->system->kink_between(begin->state, end->state)) return std::nullopt;
+  return PathKink{};
 }
 
 }  // namespace arcwall

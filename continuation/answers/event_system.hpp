@@ -90,7 +90,7 @@ class EventSystem final : public System {
                                       double tolerance) const override;
   StepVerdict check(const CheckedStep& step) const override;
   std::optional<std::string> penetrated_place(const State& state, double margin) const override;
-  bool may_have_kink(const State& from, const State& to) const override;
+  std::optional<PathKink> kink_between(const State& from, const State& to) const override;
 
  private:
   class EventLayout;

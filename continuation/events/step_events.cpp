@@ -8,6 +8,7 @@
 #include "continuation/events/singular_search.hpp"
 #include "continuation/events/target_values.hpp"
 #include "continuation/events/zero_search.hpp"
+#include "continuation/path_tolerances.hpp"
 #include "continuation/segment.hpp"
 
 namespace arcwall {
@@ -16,13 +17,13 @@ namespace {
 
 // The first detector or target value with a zero inside the segment, besides the one that its end lies on.
 std::optional<EventPlace> earliest(const TraceTools& tools, const std::vector<int>& signs, const Segment& segment,
-                                   const std::optional<EventPlace>& already) {
+                                   const std::optional<EventPlace>& already, bool over_kink) {
   std::optional<EventPlace> first;
   const auto consider = [&](EventPlace::What what, std::size_t which, double t) {
     const bool done = already && already->what == what && already->which == which;
     if (!done && (!first || t < first->t)) first = EventPlace{.what = what, .which = which, .t = t};
   };
-  for (std::size_t i = 0; i < tools.detectors.size(); ++i) {
+  for (std::size_t i = 0; i < tools.detectors.size() && !over_kink; ++i) {
     const EventDetector& detector = tools.detectors[i];
     const double v0 = detector.value(segment.from()), v1 = detector.value(segment.to());
     if (!triggers(detector, signs[i], sign_of(v1))) continue;
@@ -54,24 +55,59 @@ void end_at(ArcEnd& end, const EventPlace& event, PathPoint at) {
   end.landing.reset();
 }
 
-Event detector_event(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
+Event detector_event(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end, std::size_t which,
                      const StabilityCount& behind) {
-  const EventDetector& detector = tools.detectors[end.event->which];
+  const EventDetector& detector = tools.detectors[which];
   const PathPoint& at = end.point;
-  // λ changes by λ′ δ + ½ λ″ δ² over the bracket that is left.
-  const double width = end.event->half_width * end.length / std::max(end.event->t, 1e-3);
-  const double roundoff = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(at.state.lambda);
-  const double bend =
-      std::abs(end.beyond.tangent.dlambda - origin.point().tangent.dlambda) / std::max(end.length, 1e-300);
   return {.kind = detector.kind,
           .label = detector.label,
           .state = at.state,
           .arc = at.arc,
           .residual = at.residual,
-          .lambda_uncertainty = std::max(std::abs(at.tangent.dlambda) * width + 0.5 * bend * width * width, roundoff),
+          .lambda_uncertainty = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(at.state.lambda),
           .unstable_before = origin.from.count_after.unstable,
           .unstable_after = behind.unstable,
-          .extremum = extremum_at(detector.kind, origin.from.signs[end.event->which])};
+          .extremum = extremum_at(detector.kind, origin.from.signs[which])};
+}
+
+Event located_event(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
+                    const StabilityCount& behind) {
+  Event event = detector_event(tools, origin, end, end.event->which, behind);
+  // λ changes by λ′ δ + ½ λ″ δ² over the bracket that is left.
+  const double width = end.event->half_width * end.length / std::max(end.event->t, 1e-3);
+  const double rate = end.point.tangent.dlambda;
+  const double bend =
+      std::abs(end.beyond.tangent.dlambda - origin.point().tangent.dlambda) / std::max(end.length, 1e-300);
+  event.lambda_uncertainty = std::max(std::abs(rate) * width + 0.5 * bend * width * width, event.lambda_uncertainty);
+  return event;
+}
+
+// At a kink λ and watched quantities turn without a zero of their rates, and eigenvalues change sign without one.
+std::vector<Event> events_at_kink(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
+                                  const StabilityCount& behind) {
+  const double off = kink_accuracy * std::abs(end.point.tangent.dlambda);
+  std::vector<Event> events;
+  const auto add = [&](std::size_t which) -> Event& {
+    events.push_back(detector_event(tools, origin, end, which, behind));
+    events.back().lambda_uncertainty = std::max(events.back().lambda_uncertainty, off);
+    return events.back();
+  };
+  const std::optional<Index>& before = origin.from.count_after.unstable;
+  const bool turns = triggers(tools.detectors[0], origin.from.signs[0], sign_of(tools.detectors[0].value(end.point)));
+  const bool changes = before && behind.unstable && *before != *behind.unstable;
+  if (turns) {
+    add(0);
+  } else if (changes && tools.options.events == EventSearch::locate) {
+    Event& event = add(0);
+    event.unconfirmed = true;
+    event.extremum.reset();
+  }
+  for (std::size_t i = 1; i < tools.detectors.size(); ++i) {
+    if (!triggers(tools.detectors[i], origin.from.signs[i], sign_of(tools.detectors[i].value(end.point)))) continue;
+    Event& event = add(i);
+    event.unstable_before = event.unstable_after;
+  }
+  return events;
 }
 
 Event branch_point_event(const StepOrigin& origin, const SingularPoint& singular, const PathPoint& at,
@@ -92,9 +128,10 @@ Event branch_point_event(const StepOrigin& origin, const SingularPoint& singular
 
 ArcEndSearch locate_events(TraceTools& tools, const StepOrigin& origin, StepEnd step) {
   constexpr double same = 1e-9;  // what was located lies at the end itself
-  ArcEnd end{.point = std::move(step.point), .landing = step.landing, .turn = step.turn};
+  const bool over_kink = step.over_kink && !step.landing;
+  ArcEnd end{.point = std::move(step.point), .landing = step.landing, .turn = step.turn, .over_kink = over_kink};
   end.singular = origin.from.pending_singular;
-  if (end.singular.empty() && tools.options.events != EventSearch::none) {
+  if (!over_kink && end.singular.empty() && tools.options.events != EventSearch::none) {
     SingularSearch search = find_singular(tools, origin, end.point);
     // Of spans that are too short for their unknowns counts are not sure: then the first point's own one is trusted.
     if (!search.clear && !origin.from.known_end) return {.end = std::nullopt, .failure = search.failure};
@@ -105,7 +142,7 @@ ArcEndSearch locate_events(TraceTools& tools, const StepOrigin& origin, StepEnd 
   for (;;) {
     const Segment segment(origin.metric, origin.point(), end.point);
     end.length = segment.length();
-    const auto next = looks ? earliest(tools, origin.from.signs, segment, end.event) : std::nullopt;
+    const auto next = looks ? earliest(tools, origin.from.signs, segment, end.event, over_kink) : std::nullopt;
     if (!next || (end.event && next->t >= 1.0 - same)) break;
     LocatedEvent located = locate(tools, origin, *next, end.point);
     if (!located.point) return {.end = std::nullopt, .failure = located.failure};
@@ -121,6 +158,7 @@ ArcEndSearch locate_events(TraceTools& tools, const StepOrigin& origin, StepEnd 
 
 std::vector<Event> events_at(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
                              const StabilityCount& behind) {
+  if (end.over_kink) return events_at_kink(tools, origin, end, behind);
   std::vector<Event> events;
   if (!end.singular.empty()) {
     const SingularPoint& first = end.singular.front();
@@ -128,13 +166,13 @@ std::vector<Event> events_at(const TraceTools& tools, const StepOrigin& origin, 
     // λ turns on the branch of a pitchfork where that is: both are one event.
     const bool is_own_pitchfork = first.branching && first.branching->ends_its_own_branch();
     if (first.place.what == EventPlace::What::detector && !is_own_pitchfork) {
-      events.push_back(detector_event(tools, origin, end, behind));
+      events.push_back(located_event(tools, origin, end, behind));
       events.back().unconfirmed = first.unconfirmed && !first.branching;
       if (events.back().unconfirmed) events.back().extremum.reset();  // λ touches its extreme value without turning
     }
     for (Event& event : events) event.lambda_uncertainty = std::max(event.lambda_uncertainty, first.uncertain);
   } else if (end.event && end.event->what != EventPlace::What::target_value) {
-    events.push_back(detector_event(tools, origin, end, behind));
+    events.push_back(located_event(tools, origin, end, behind));
   }
   return events;
 }

@@ -20,6 +20,7 @@ struct ArcEnd {
   std::optional<Landing> landing{};       ///< contacts change at `point`
   std::optional<Landing> passed_bound{};  ///< a validity bound that lies a little before `point`, a target value
   double turn = 0.0;                      ///< of the tangent over the step that was tried [rad]
+  bool over_kink = false;                 ///< the arc leads over a kink of the path alone, which is at `point`
 
   /// Whether the equations are singular where contacts change.
   bool at_singular_change() const { return landing && landing->singular; }

@@ -12,6 +12,7 @@ struct StepEnd {
   PathPoint point{};
   double turn = 0.0;  ///< of the tangent over the step that was tried [rad]
   std::optional<Landing> landing{};
+  bool over_kink = false;  ///< the step leads over a kink of the path alone
 };
 
 /// What landing on the first guard made of a step's end.

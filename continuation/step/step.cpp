@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "continuation/corners/transitions.hpp"
+#include "continuation/events/target_values.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/step/point_on_path.hpp"
 #include "continuation/step/predictor.hpp"
@@ -116,11 +117,55 @@ std::optional<StepOutcome> strayed(const System& system, const StepOrigin& origi
   constexpr double over_a_kink = 1e-6;  // steps are no longer [path metric]
   const Direction chord = difference(end.point.state, origin.point().state);
   const bool is_short = origin.metric.norm(chord) <= 2.0 * s;
-  if (is_short && s <= over_a_kink && system.may_have_kink(origin.point().state, end.point.state)) return std::nullopt;
+  if (is_short && s <= over_a_kink && system.kink_between(origin.point().state, end.point.state)) return std::nullopt;
   if (end.turn > options.max_turn) return StepOutcome::tangent_angle;
   const bool near = is_short && angle_between(metric, origin.point().tangent, chord) <= options.max_turn &&
                     !leads_aside(metric, origin.point(), end.point);
   return near ? std::nullopt : std::optional(StepOutcome::left_path);
+}
+
+// The step to the first kink before `ahead`: to just before it, or over it from there. The quantity that grows through
+// it closes the step over it, since λ may turn. Empty: there is none.
+struct StepToKink {
+  CorrectorResult result{};
+  bool is_over = false;
+};
+
+std::optional<StepToKink> step_to_kink(TraceTools& tools, const StepOrigin& origin, const State& ahead) {
+  constexpr double before = 1e-9;  // the kink [path metric]
+  const PathPoint& from = origin.point();
+  const auto kink = origin.leaves_branch_point ? std::nullopt : tools.system.kink_between(from.state, ahead);
+  if (!kink || !kink->past) return std::nullopt;
+  const Observable& past = *kink->past;
+  const double here = past.value(from.state), rate = apply(past.gradient(from.state), from.tangent);
+  if (!(rate > 0.0)) return std::nullopt;
+  const double distance = -here / rate;
+  const bool is_over = distance <= 2.0 * before;
+  const double beside = is_over ? kink_accuracy : -before, s = distance + beside;
+  const ValueConstraint constraint(past, rate * beside);
+  StepToKink step{
+      .result = tools.corrector.correct(moved(from.state, from.tangent, s), constraint, origin.metric, from.tangent, s),
+      .is_over = is_over};
+  if (!step.result.converged() || (past.value(step.result.state) > 0.0) != is_over) return std::nullopt;
+  const Direction& tangent = step.result.tangent;
+  if (is_over && apply(past.gradient(step.result.state), tangent) < 0.0) step.result.tangent = reversed(tangent);
+  return step;
+}
+
+// Whether a step over a kink has to be taken in parts: it turns too much, or something changes on its way.
+bool is_stopped_by_kink(TraceTools& tools, const StepOrigin& origin, const CorrectorResult& result, double s) {
+  if (!tools.system.kink_between(origin.point().state, result.state)) return false;
+  StepEnd end{.point = path_point(tools.system, origin.metric, result, origin.point().tangent)};
+  const Metric metric = turning_metric(origin, s, tools.options.step.max);
+  end.turn = angle_between(metric, origin.point().tangent, end.point.tangent);
+  const auto passes = [&](const TargetValue& target) {
+    return lies_between(target, origin.point().state, end.point.state);
+  };
+  const auto& targets = tools.options.target_values;
+  return strayed(tools.system, origin, metric, end, s, tools.options.step) ||
+         std::any_of(targets.begin(), targets.end(), passes) ||
+         end.point.negative_eigenvalues != origin.from.negative_eigenvalues ||
+         signs_at(tools.detectors, end.point) != origin.from.signs;
 }
 
 // What vanishes with the guard that was landed on belongs to the change.
@@ -144,6 +189,10 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   };
 
   CorrectorResult result = corrected(tools, origin, s, tried.attempt.strategies);
+  std::optional<StepToKink> kink;
+  if (!result.converged() || is_stopped_by_kink(tools, origin, result, s))
+    kink = step_to_kink(tools, origin, result.converged() ? result.state : moved(from.state, from.tangent, s));
+  if (kink) result = std::move(kink->result);
   tried.attempt.iterations = result.iterations;
   tried.attempt.residual = result.residual;
   tried.attempt.roots = result.roots;
@@ -151,10 +200,13 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   if (auto why = tools.system.check({.from = from.state, .to = result.state}); why.fault != StepVerdict::Fault::none)
     return rejected(outcome_of(why.fault), CorrectorStatus::converged, std::move(why.place));
 
-  StepEnd end{.point = path_point(tools.system, origin.metric, std::move(result), from.tangent)};
+  const bool is_over_kink = kink && kink->is_over;
+  const Direction forward = is_over_kink ? result.tangent : from.tangent;
+  StepEnd end{.point = path_point(tools.system, origin.metric, std::move(result), forward), .over_kink = is_over_kink};
   const Metric metric = turning_metric(origin, s, tools.options.step.max);
   tried.attempt.turn = end.turn = angle_between(metric, from.tangent, end.point.tangent);
-  if (const auto outcome = strayed(tools.system, origin, metric, end, s, tools.options.step)) return rejected(*outcome);
+  if (const auto outcome = strayed(tools.system, origin, metric, end, s, tools.options.step); outcome && !is_over_kink)
+    return rejected(*outcome);
 
   LandedStep landed = land_on_first_guard(tools, origin, std::move(end));
   if (!landed.end) return rejected(StepOutcome::event_not_located, landed.failure, std::move(landed.where));
