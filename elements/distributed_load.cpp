@@ -1,7 +1,9 @@
 #include "elements/distributed_load.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "core/root_find.hpp"
 #include "elements/cubic_axis.hpp"
 #include "elements/shape_functions.hpp"
 
@@ -36,7 +38,7 @@ double interpolated_angle(const std::array<double, StretchReference::samples>& v
 
 }  // namespace
 
-// Only the energy knows where the stretch is at rest.
+// Only the energy knows where the stretch is at rest. A load by plan is zero at its kinks: rates need not know where.
 StretchLoad::Response StretchLoad::respond(const Vec2& r1, double angle1, const Vec2& r2, double angle2) const {
   const CubicAxis now(r1, angle1, r2, angle2);
   const CubicAxis rest(Vec2::Zero(), stretch_.angles.front(), stretch_.chord, stretch_.angles.back());
@@ -45,8 +47,13 @@ StretchLoad::Response StretchLoad::respond(const Vec2& r1, double angle1, const 
   std::array<CubicAxis::Sum, 2> rate{sum, sum};
   Response out;
   const GaussRule rule = gauss_rule(3);
-  for (std::size_t g = 0; g < 3; ++g) {
-    const double xi = 0.5 * (1.0 + rule.xi[g]), ds = 0.5 * rule.weight[g] * stretch_.length;
+  const SmoothPieces pieces =
+      load_.is_straight() ? SmoothPieces()
+                          : SmoothPieces(load_, [&](double xi) { return interpolated_angle(stretch_.angles, xi); });
+  for (std::size_t i = 0; i < 3 * pieces.count(); ++i) {
+    const std::size_t piece = i / 3, g = i % 3;
+    const double xi = pieces.begin(piece) + 0.5 * (1.0 + rule.xi[g]) * pieces.length(piece);
+    const double ds = 0.5 * rule.weight[g] * pieces.length(piece) * stretch_.length;
     const double S = from_ + xi * (to_ - from_);
     const double angle = load_.is_straight() ? 0.0 : interpolated_angle(stretch_.angles, xi);
     const Vec2 q = load_.at(S, angle);
@@ -81,6 +88,20 @@ double TrussDistributedLoad::evaluate(const double* u, double* f, double* K) con
   }
   if (K != nullptr) std::fill(K, K + 16, 0.0);
   return V;
+}
+
+SmoothPieces::SmoothPieces(const LineLoad& load, const std::function<double(double)>& angle) {
+  if (load.measure != LoadMeasure::plan) return;
+  constexpr int thirds = 3;
+  count_ = 0;
+  for (int i = 0; i < thirds; ++i) {
+    const double a = double(i) / thirds, b = double(i + 1) / thirds;
+    const double before = load.sign(angle(a)), behind = load.sign(angle(b));
+    if (before * behind >= 0.0) continue;
+    const auto sign = [&](double xi) { return std::optional(load.sign(angle(xi))); };
+    if (const auto kink = bracketed_root(sign, a, before, b, behind, 1e-15)) ends_[++count_] = kink->at;
+  }
+  ends_[++count_] = 1.0;
 }
 
 void combine(const DrivenLineLoad& load, std::vector<DrivenLineLoad>& to) {

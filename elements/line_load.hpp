@@ -1,7 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "core/types.hpp"
@@ -39,6 +42,9 @@ struct LineLoad {
     return rate;
   }
 
+  /// Changes its sign where the load has a kink along the axis, at an angle of this.
+  double sign(double angle) const { return measure == LoadMeasure::plan ? std::cos(angle) : 1.0; }
+
   /// The greater one of those at its ends [force/length].
   double greatest(double length) const { return std::max(first.norm(), (first + length * slope).norm()); }
 
@@ -62,6 +68,22 @@ struct DrivenLineLoad {
   double greatest_force(double length) const { return std::abs(factor.proportional) * load.greatest(length) * length; }
 
   bool operator==(const DrivenLineLoad&) const = default;
+};
+
+/// The pieces of a stretch on each of which a load is smooth, by fractions of it.
+class SmoothPieces {
+ public:
+  SmoothPieces() = default;  ///< one
+  /// `angle`: of the axis at a fraction, which a load by plan has at most one kink in each third for.
+  SmoothPieces(const LineLoad& load, const std::function<double(double)>& angle);
+
+  std::size_t count() const { return count_; }
+  double begin(std::size_t piece) const { return ends_[piece]; }
+  double length(std::size_t piece) const { return ends_[piece + 1] - ends_[piece]; }
+
+ private:
+  std::array<double, 5> ends_{0.0, 1.0};
+  std::size_t count_ = 1;
 };
 
 /// Adds a load to others; loads that differ in size alone become one.

@@ -133,14 +133,18 @@ std::unique_ptr<Element> make_load(const MemberElement& at, const LineLoad& load
     const double S = at.arc(fraction);
     return load.at(S, load.is_straight() ? 0.0 : at.shape.at(S).angle);
   };
+  const auto pieces = [&] {
+    return SmoothPieces(load, [&](double fraction) { return at.shape.at(at.arc(fraction)).angle; });
+  };
   switch (at.member.theory) {
     case Theory::euler_bernoulli:
     case Theory::elastica:
       return std::make_unique<BeamDistributedLoad>(slender_reference(at), load, at.arc(0.0), at.arc(1.0));
     case Theory::reissner:
-      return std::make_unique<ExactDistributedLoad>(exact_reference(at), along);
+      return std::make_unique<ExactDistributedLoad>(exact_reference(at), along, 3, pieces());
     case Theory::essenburg:
-      return std::make_unique<ExactDistributedLoad>(exact_reference(at), along, EssenburgBeam::unknowns_a_node);
+      return std::make_unique<ExactDistributedLoad>(exact_reference(at), along, EssenburgBeam::unknowns_a_node,
+                                                    pieces());
     case Theory::truss: {  // straight: the load is linear
       const Vec2 first = along(0.0), second = along(1.0);
       const double L = beam_reference(at).length;

@@ -121,13 +121,16 @@ void ReissnerBeam::add_stiffness(const GaussPoint& at, std::size_t nodes, const 
 }
 
 ExactDistributedLoad::ExactDistributedLoad(const ExactBeamReference& reference,
-                                           const std::function<Vec2(double)>& load_at, int unknowns_a_node)
+                                           const std::function<Vec2(double)>& load_at, int unknowns_a_node,
+                                           const SmoothPieces& pieces)
     : forces_(reference.nodes.size(), Vec2::Zero()), stride_(unknowns_a_node) {
   const GaussRule rule = gauss_rule(reference.order() + 1);  // exact for a load that is linear along a straight axis
-  for (std::size_t g = 0; g < forces_.size(); ++g) {
-    const ShapeFunctions shape = shape_functions(reference.order(), rule.xi[g]);
-    const double ds = rule.weight[g] * arc_speed(reference, shape);
-    const Vec2 load = load_at(0.5 * (1.0 + rule.xi[g]));
+  for (std::size_t i = 0; i < forces_.size() * pieces.count(); ++i) {
+    const std::size_t piece = i / forces_.size(), g = i % forces_.size();
+    const double along = pieces.begin(piece) + 0.5 * (1.0 + rule.xi[g]) * pieces.length(piece);
+    const ShapeFunctions shape = shape_functions(reference.order(), 2.0 * along - 1.0);
+    const double ds = rule.weight[g] * pieces.length(piece) * arc_speed(reference, shape);
+    const Vec2 load = load_at(along);
     for (std::size_t a = 0; a < forces_.size(); ++a) forces_[a] += ds * shape.N[a] * load;
   }
 }

@@ -6,6 +6,7 @@
 
 #include "core/types.hpp"
 #include "elements/element.hpp"
+#include "elements/line_load.hpp"
 #include "elements/shape_functions.hpp"
 
 namespace arcwall {
@@ -84,9 +85,9 @@ class ReissnerBeam final : public Element {
 class ExactDistributedLoad final : public Element {
  public:
   /// `load_at`: at a fraction of the stretch [force/length]. Of the unknowns of each node the first two are the
-  /// displacements.
+  /// displacements. `pieces`: on which the load is smooth.
   ExactDistributedLoad(const ExactBeamReference& reference, const std::function<Vec2(double)>& load_at,
-                       int unknowns_a_node = 3);
+                       int unknowns_a_node = 3, const SmoothPieces& pieces = {});
 
   int unknown_count() const override { return stride_ * static_cast<int>(forces_.size()); }
   double evaluate(const double* u, double* f, double* K) const override;

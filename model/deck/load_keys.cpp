@@ -1,5 +1,6 @@
 // Supports, movements of supports, and loads.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "model/deck/deck_keys.hpp"
@@ -56,7 +57,19 @@ void point_load_keys(Keys& keys, PointLoad& load) {
     keys.report("force", "the load has neither force nor moment", "give at least one of them");
 }
 
-void member_load_keys(Keys& keys, MemberLoad& load) {
+// A load by length of plan needs a member that has one.
+void check_plan(Keys& keys, const Deck& deck, const MemberLoad& load) {
+  constexpr double vertical = 1e-12;  // of the length: below, x is beyond the resolution of the coordinates
+  const Member* member = load.per == LoadMeasure::plan ? find(deck.members, load.member) : nullptr;
+  if (member == nullptr || !std::holds_alternative<Straight>(member->axis)) return;
+  const Point *from = find(deck.points, member->from), *to = find(deck.points, member->to);
+  if (from == nullptr || to == nullptr) return;
+  if (std::abs(to->at.x - from->at.x) <= vertical * std::abs(to->at.z - from->at.z))
+    keys.report("per", "member " + member->name + " is vertical and has no length of plan: the load on it is zero",
+                "leave out per, or leave out the load");
+}
+
+void member_load_keys(Keys& keys, MemberLoad& load, const Deck& deck) {
   keys.name("on", load.member, Named::member,
             "instead of `at`: a member, with `distributed`, `pressure` or a temperature");
   Key distributed("distributed");
@@ -74,6 +87,7 @@ void member_load_keys(Keys& keys, MemberLoad& load) {
   keys.word(optional("frame"), load.frame, frame_words,
             "of `distributed`: `\"member\"` gives components along the undeformed axis and across it, to the left");
   keys.word(optional("per"), load.per, per_words, "of `distributed`: `\"x\"` per length of plan, as snow");
+  if (keys.reads()) check_plan(keys, deck, load);
   for (const char* key : {"force", "moment"})
     keys.applies(false, key, "belongs to a load at a point", "write `at` instead of `on`, or give distributed");
 }
@@ -134,7 +148,8 @@ void load_keys(Keys& keys, Load& load, const Deck& deck) {
   } else {
     keys.alternative<PointLoad>("at", load.action, [&](PointLoad& action) { point_load_keys(keys, action); });
     if (spreads || keys.lists())
-      keys.alternative<MemberLoad>("on", load.action, [&](MemberLoad& action) { member_load_keys(keys, action); });
+      keys.alternative<MemberLoad>("on", load.action,
+                                   [&](MemberLoad& action) { member_load_keys(keys, action, deck); });
     if (presses || keys.lists())
       keys.alternative<Pressure>("on", load.action, [&](Pressure& action) { pressure_keys(keys, action, deck); });
     if ((heats && !presses) || keys.lists())

@@ -101,6 +101,24 @@ TEST(StretchLoad, DerivativesAreConsistent) {
   EXPECT_LE((here.force_rate[1] - rate(0.0, step)).norm(), 1e-9);
 }
 
+// On an arc of radius 1 that is vertical inside the stretch, by 0.3 before it and 0.2 after it.
+TEST(StretchLoad, ByLengthOfPlanIsExactAcrossAVerticalPlace) {
+  const auto arc = arc_axis({std::cos(3.5), std::sin(3.5)}, {0.0, 1.0}, {1.0, 0.0});
+  const ImperfectAxis shape(*arc, {});
+  const LineLoad snow{.first = {0.0, -1.0}, .measure = LoadMeasure::plan};
+  constexpr double vertical = 3.5 - pi, from = vertical - 0.3, to = vertical + 0.2;
+  const StretchReference rest = stretch_reference(shape, from, to);
+  const auto at = [&](double a, double b) {
+    return StretchLoad(stretch_reference(shape, a, b), snow, a, b)
+        .respond(Vec2::Zero(), rest.angles.front(), rest.chord, rest.angles.back());
+  };
+  const auto here = at(from, to);
+  EXPECT_NEAR(here.force[1] + here.force[4], 2.0 - std::cos(0.3) - std::cos(0.2), 1e-9);
+  constexpr double step = 1e-6;  // the rates leave out that the pieces of Gauss's rule move, by its remainder
+  EXPECT_LE(((at(from + step, to).force - at(from - step, to).force) / (2.0 * step) - here.force_rate[0]).norm(), 1e-6);
+  EXPECT_LE(((at(from, to + step).force - at(from, to - step).force) / (2.0 * step) - here.force_rate[1]).norm(), 1e-6);
+}
+
 TEST(TrussDistributedLoad, ItsForcesActAtTheEnds) {
   test::Numbers numbers(28);
   const Vec2 first(0.4, -1.0), second(0.2, 0.5);

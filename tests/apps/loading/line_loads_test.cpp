@@ -120,6 +120,29 @@ member.b = { from = "crown", to = "right", via = [7.5, 1.5553287944080996], theo
   EXPECT_NEAR(monitors.at(0), 1e-3 * 100.0 / 16.0, 1e-7);
 }
 
+// Snow on an arc of radius 2 that overhangs by 60° on both sides falls on 2·2 between its outermost places and twice 2
+// (1 − cos 60°) below them: Gauss's rule leaves 3e-9.
+TEST(LineLoads, ByLengthOfPlanFallOnOverhangsToo) {
+  const double x = std::sqrt(3.0) / 2.0;
+  for (const char* theory : {"euler-bernoulli", "elastica", "reissner", "essenburg"}) {
+    const TracedDeck run(fmt::format(R"toml(
+title = "Snow on an overhanging arc"
+material.m = {{ E = 1e9, nu = 0.0 }}
+section.s = {{ shape = "rectangle", width = 1.0, height = 0.1 }}
+point = {{ a = [{}, -1.0], b = [{}, -1.0] }}
+support = {{ a = ["x", "z", "rotation"], b = ["x", "z", "rotation"] }}
+load = [{{ on = "beam", distributed = [0.0, -1.0], per = "x" }}]
+path = {{ method = "load", step = 1.0, stop = {{ lambda = [-0.5, 1.0] }} }}
+monitor = [{{ name = "A", at = "a", component = "reaction-z" }}, {{ name = "B", at = "b", component = "reaction-z" }}]
+member.beam = {{ from = "a", to = "b", via = [0.0, 2.0], theory = "{}", elements = 10, material = "m", section = "s" }}
+)toml",
+                                     -2.0 * x, 2.0 * x, theory));
+    const std::vector<double>& monitors = run.record().points.back().monitors;
+    const double plan = 4.0 + 2.0 * 2.0 * (1.0 - x);
+    EXPECT_NEAR(monitors.at(0) + monitors.at(1), plan, 1e-8 * plan) << theory;
+  }
+}
+
 // A strip lies on a floor, heavier towards its clamp: q₀ + q₁ s from its free end, which a force F lifts. It leaves the
 // floor where its moment vanishes, F = q₀ l/2 + q₁ l²/6, and its end rises by w = F l³/3 − q₀ l⁴/8 − q₁ l⁵/30 over EI.
 TEST(LineLoads, ThatVaryHoldAStripOnAFloorAsByHand) {
@@ -149,6 +172,15 @@ profile = { type = "flat", z = 0.0 }
   EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop);
   EXPECT_NEAR(run.record().points.back().monitors.at(0), w, 1e-7 * w);
   test::expect_whole(run);
+}
+
+TEST(LineLoads, ByLengthOfPlanAreRefusedOnAVerticalMember) {
+  std::string post =
+      cantilever("theory = \"elastica\"", "load = [{ on = \"beam\", distributed = [0.0, -1.0], per = \"x\" }]\n");
+  post.replace(post.find("b = [2.0, 0.0]"), 14, "b = [0.0, 2.0]");
+  EXPECT_EQ(test::said_of(post),
+            "deck.toml:10:57: load.0.per: member beam is vertical and has no length of plan: the load on it is zero; "
+            "leave out per, or leave out the load");
 }
 
 TEST(LineLoads, BelongToADistributedLoad) {
