@@ -63,6 +63,9 @@ void check_jump(Keys& keys, BranchPolicy branches, const Path& path) {
   if (path.method == PathMethod::incremental)
     keys.report("branches", "\"jump\" needs equilibria, which method \"incremental\" leaves",
                 "use method \"spherical\"");
+  else if (path.method == PathMethod::load)
+    keys.report("branches", "\"jump\" begins where λ turns, and method \"load\" ends there",
+                "use method \"spherical\"");
   else if (path.events != EventSearch::locate)
     keys.report("branches",
                 "\"jump\" needs located events, and events is " + in_quotes(text_of(events_words, path.events)),

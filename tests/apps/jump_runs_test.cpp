@@ -340,4 +340,10 @@ TEST(JumpRuns, RefuseWhatLocatesNoEvents) {
       "or write events = \"locate\"");
 }
 
+TEST(JumpRuns, RefuseAMethodThatEndsWhereTheLoadTurns) {
+  EXPECT_EQ(test::said_of(truss("method = \"load\"\n")),
+            "deck.toml:28:12: path.branches: \"jump\" begins where λ turns, and method \"load\" ends there; use method "
+            "\"spherical\"");
+}
+
 }  // namespace arcwall::jump_runs_test
