@@ -30,16 +30,24 @@ std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, cons
 struct Penetration {
   double depth = 0.0;
   ContactLabel label{};
-  bool everywhere = true;  ///< of all points that might touch
+  bool everywhere = true;  ///< of all points before or behind the wall
 };
+
+// Which side of an outline the structure is on, and how that is changed.
+std::string other_side_of(const deck::Outline& outline) {
+  if (std::holds_alternative<deck::HalfPlaneOutline>(outline))
+    return "the structure lies on the side of `normal`: turn that round";
+  const auto is_open = [](const auto* points) { return points != nullptr && !points->closed; };
+  if (is_open(std::get_if<deck::PolylineOutline>(&outline)) || is_open(std::get_if<deck::CurveOutline>(&outline)))
+    return "the structure lies to the left of the outline, on the way from its first point to its last: reverse the "
+           "points";
+  return "the structure lies on the side of `structure`: change that";
+}
 
 std::string how_to_part(const deck::Wall& wall, const Penetration& found) {
   const std::string apart = "move the wall, or give it an interference";
   if (!found.everywhere) return apart;
-  if (wall.outline)
-    return "the structure lies to the left of an outline, or on the side of `normal` or `structure`: is the other side "
-           "meant? Else " +
-           apart;
+  if (wall.outline) return other_side_of(*wall.outline) + " if the other side is meant. Else " + apart;
   const bool above = wall.side == Side::above;
   return fmt::format("side = \"{}\" means that the structure stays {} the wall: is \"{}\" meant? Else {}",
                      above ? "above" : "below", above ? "below" : "above", above ? "below" : "above", apart);
@@ -365,7 +373,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
               std::move(point), obstacle,
               {.wall = wall.name, .member = mesh.name, .fraction = section.fraction, .tributary = section.tributary});
           const double gap = candidate.gap(rest);
-          deepest.everywhere = deepest.everywhere && gap < 0.0;
+          deepest.everywhere = deepest.everywhere && !(gap >= 0.0 && std::isfinite(gap));
           if (-gap > deepest.depth) {
             deepest.depth = -gap;
             deepest.label = candidate.label();

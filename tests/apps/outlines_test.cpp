@@ -337,6 +337,24 @@ TEST(Outlines, WhatTheyCannotDoIsSaid) {
             std::string::npos);
 }
 
+// A floor that is shorter than the strip, drawn from right to left, and others whose free side is the other one.
+TEST(Outlines, AStripOnTheOtherSideIsToldHowToChangeIt) {
+  const Strip strip{};
+  const auto says = [&](const std::string& outline, const std::string& cure) {
+    EXPECT_NE(problem_of(strip.deck(outline)).find(cure + " if the other side is meant. Else move the wall"),
+              std::string::npos)
+        << problem_of(strip.deck(outline));
+  };
+  says(
+      "type = \"polyline\", x = [0.8, 0.2], z = [-0.1, -0.1]",
+      "the structure lies to the left of the outline, on the way from its first point to its last: reverse the points");
+  says("type = \"curve\", x = [0.8, 0.5, 0.2], z = [-0.1, -0.11, -0.1]", "reverse the points");
+  says("type = \"half-plane\", point = [0.0, -0.1], normal = [0.0, -1.0]",
+       "the structure lies on the side of `normal`: turn that round");
+  says("type = \"circle\", centre = [0.5, 0.0], radius = 5.0",
+       "the structure lies on the side of `structure`: change that");
+}
+
 // A strip that bends around a peg comes with its end under it. The upper arc of a circle alone has no face below, where
 // the strip would be inside: the run ends there and says so, with contact that slides and at nodes. Nothing is in the
 // way of the same strip around the whole circle.
