@@ -62,11 +62,8 @@ class FixedBody final : public Body {
   }
   std::shared_ptr<const Observable> gap(std::size_t member, std::size_t node,
                                         const FacedObstacle& obstacle) const override;
-  std::shared_ptr<const Observable> greatest(std::size_t member, std::vector<SectionQuantity> quantities,
-                                             MemberGreatest::What what, double negligible) const override {
-    if (increments_ != nullptr) return nullptr;
-    return std::make_shared<MemberGreatest>(std::make_shared<TiedElements>(tied(member)), std::move(quantities), what,
-                                            negligible);
+  std::shared_ptr<const ElementsOfMember> elements(std::size_t member) const override {
+    return increments_ != nullptr ? nullptr : std::make_shared<TiedElements>(tied(member));
   }
   Vector steps(const State& state) const override {
     Vector steps = Vector::Zero(state.x.size());
@@ -129,10 +126,8 @@ class SlidingMeshBody final : public Body {
     const double fraction = structure_.members()[member].fraction(node);
     return std::make_shared<StrandGap>(sliding_, sliding_.find(name(member), fraction), obstacle);
   }
-  std::shared_ptr<const Observable> greatest(std::size_t member, std::vector<SectionQuantity> quantities,
-                                             MemberGreatest::What what, double negligible) const override {
-    return std::make_shared<MemberGreatest>(std::make_shared<SlidingElements>(sliding_, name(member)),
-                                            std::move(quantities), what, negligible);
+  std::shared_ptr<const ElementsOfMember> elements(std::size_t member) const override {
+    return std::make_shared<SlidingElements>(sliding_, name(member));
   }
   Vector steps(const State& state) const override { return moves_alike(sliding_, state); }
   std::vector<ShapePoint> shape(std::size_t member, const State& state) const override;

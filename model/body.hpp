@@ -8,7 +8,7 @@
 #include "elements/member_point.hpp"
 #include "elements/sliding_structure.hpp"
 #include "model/deck/deck.hpp"
-#include "model/member_greatest.hpp"
+#include "model/member_extreme.hpp"
 #include "model/member_stretch.hpp"
 #include "model/place_gap.hpp"
 
@@ -42,9 +42,8 @@ class Body {
   virtual std::shared_ptr<const Observable> gap(std::size_t member, std::size_t node,
                                                 const FacedObstacle& obstacle) const = 0;
 
-  /// The greatest absolute value along a member of what its sections carry, or its place; null of load increments.
-  virtual std::shared_ptr<const Observable> greatest(std::size_t member, std::vector<SectionQuantity> quantities,
-                                                     MemberGreatest::What what, double negligible) const = 0;
+  /// A member from end to end, for what its sections carry; null of load increments.
+  virtual std::shared_ptr<const ElementsOfMember> elements(std::size_t member) const = 0;
 
   /// By how much each unknown of a state is moved for a difference; 0 of what is no motion.
   virtual Vector steps(const State& state) const = 0;

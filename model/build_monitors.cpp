@@ -66,6 +66,8 @@ deck::Dimension dimension_of(deck::Component component) {
     case deck::Component::max_stress:
       return deck::unit::stress;
     case deck::Component::greatest_pressure:
+    case deck::Component::least_pressure:
+    case deck::Component::mean_pressure:
       return deck::unit::line_load;
     case deck::Component::x:
     case deck::Component::z:
@@ -263,13 +265,19 @@ std::shared_ptr<const Observable> gap(const deck::Deck& deck, const Measured& fr
 
 double moment_at(const MemberStretch& stretch, double xi) { return stretch.moment(xi); }
 
-// What a foundation exerts per length where the axis has moved so far from its stress-free place.
+// What a foundation exerts per length where the axis has moved so far from its stress-free place: with its sign where
+// it acts in one direction.
 SectionQuantity pressure_of(const deck::Foundation& foundation) {
   FoundationLaw law(Vec2(foundation.x, foundation.z));
   if (foundation.law)
     law.add(foundation.law->direction == Dof::x ? 0 : 1, std::make_shared<const SpringLaw>(foundation.law->law()));
-  return [law = std::move(law)](const MemberStretch& stretch, double xi) {
-    return law.at(stretch.now.position(xi) - stretch.rest.position(xi)).force.norm();
+  const auto acts = [&](Dof direction, double stiffness) {
+    return stiffness > 0.0 || (foundation.law && foundation.law->direction == direction);
+  };
+  const bool in_both = acts(Dof::x, foundation.x) && acts(Dof::z, foundation.z);
+  return [law = std::move(law), in_both](const MemberStretch& stretch, double xi) {
+    const Vec2 force = law.at(stretch.now.position(xi) - stretch.rest.position(xi)).force;
+    return in_both ? force.norm() : force.sum();
   };
 }
 
@@ -296,13 +304,13 @@ AlongMember stresses_in(const deck::Deck& deck, const Measured& from, const deck
   return along;
 }
 
-// Those of a monitor that shows what is greatest.
+// Those of a monitor that shows what is greatest, least or the mean.
 std::vector<AlongMember> along_members(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor) {
   if (monitor.component == deck::Component::max_moment)
     return {{.member = monitor.member,
              .quantities = {moment_at},
              .negligible = from.structure.force_roundoff() * from.structure.length_scale()}};
-  if (monitor.component == deck::Component::greatest_pressure) {
+  if (is_pressure(monitor.component)) {
     const auto& foundation = std::get<deck::Foundation>(deck::find(deck.springs, monitor.spring)->kind);
     return {{.member = foundation.member, .quantities = {pressure_of(foundation)}}};
   }
@@ -321,20 +329,30 @@ enum class OfGreatest { value, place, member };
 
 std::shared_ptr<const Observable> greatest(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
                                            OfGreatest what) {
+  const auto which = monitor.component == deck::Component::least_pressure ? MemberExtreme::Which::least
+                                                                          : MemberExtreme::Which::greatest;
   std::vector<std::shared_ptr<const Observable>> values, shown;
   for (const AlongMember& along : along_members(deck, from, monitor)) {
     const std::size_t member = member_index(from, along.member);
-    const auto of = [&](MemberGreatest::What part) {
-      return from.body.greatest(member, along.quantities, part, along.negligible);
+    const auto elements = from.body.elements(member);
+    if (!elements) return nullptr;
+    const auto of = [&](MemberExtreme::What part) -> std::shared_ptr<const Observable> {
+      return std::make_shared<MemberExtreme>(elements, along.quantities, which, part, along.negligible);
     };
-    values.push_back(of(MemberGreatest::What::value));
-    if (!values.back()) return nullptr;
+    values.push_back(of(MemberExtreme::What::value));
     shown.push_back(what == OfGreatest::value   ? values.back()
-                    : what == OfGreatest::place ? of(MemberGreatest::What::place)
+                    : what == OfGreatest::place ? of(MemberExtreme::What::place)
                                                 : std::make_shared<ConstantValue>(double(member)));
   }
   if (values.size() == 1) return shown.front();
   return std::make_shared<GreatestOfMembers>(std::move(values), std::move(shown));
+}
+
+// Null of load increments.
+std::shared_ptr<const Observable> mean(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor) {
+  const AlongMember along = along_members(deck, from, monitor).front();
+  auto elements = from.body.elements(member_index(from, along.member));
+  return elements ? std::make_shared<MemberMean>(std::move(elements), along.quantities.front()) : nullptr;
 }
 
 // --- the force of a spring ------------------------------------------------------------------------------------------
@@ -395,7 +413,8 @@ std::shared_ptr<const Observable> spring_force(const deck::Deck& deck, const Mea
 // What a monitor shows, without its sign; null, with or without a problem of its own, if it has nothing to show.
 std::shared_ptr<const Observable> shown_by(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
                                            DeckProblems& problems) {
-  if (is_greatest(monitor.component)) return greatest(deck, from, monitor, OfGreatest::value);
+  if (is_extreme(monitor.component)) return greatest(deck, from, monitor, OfGreatest::value);
+  if (monitor.component == deck::Component::mean_pressure) return mean(deck, from, monitor);
   switch (monitor.of()) {
     case deck::Monitored::wall:
       return on_wall(deck, from, monitor, problems);
@@ -496,6 +515,8 @@ Watch::Kind kind_of(const MonitorColumn& column, const deck::Deck& deck) {
     case deck::Component::max_stress:
     case deck::Component::utilisation:
     case deck::Component::greatest_pressure:
+    case deck::Component::least_pressure:
+    case deck::Component::mean_pressure:
       return Watch::Kind::inner_force;
   }
   return Watch::Kind::motion;
@@ -513,7 +534,8 @@ std::shared_ptr<const Observable> reaction_of(const Measured& from, Index dof) {
 }
 
 bool is_of_section_forces(deck::Component component) {
-  return component == deck::Component::axial_force || component == deck::Component::moment || is_greatest(component);
+  return component == deck::Component::axial_force || component == deck::Component::moment || is_extreme(component) ||
+         component == deck::Component::mean_pressure;
 }
 
 namespace {
@@ -559,7 +581,7 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measure
     MonitorColumn& column = columns.emplace_back(column_of(monitor.name, monitor.component, deck));
     column.raw = quantity;
     column.quantity = in_users_unit(std::move(quantity), monitor.sign * column.factor);
-    if (is_greatest(monitor.component)) add_place(deck, from, monitor, columns);
+    if (is_extreme(monitor.component)) add_place(deck, from, monitor, columns);
     if (is_contact_edge(monitor.component)) add_x(deck, from, monitor, columns);
   }
   add_reactions_of_movements(deck, from, columns);

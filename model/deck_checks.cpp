@@ -109,10 +109,10 @@ void check_between_nodes(const deck::Deck& deck, const SlidingContact& contact, 
 void check_watched(const deck::Deck& deck, DeckProblems& problems) {
   for (const std::string& name : deck.path.watch) {
     const deck::Monitor& monitor = *deck::find(deck.monitors, name);
-    const bool pressure = monitor.component == deck::Component::greatest_pressure;
-    if (is_greatest(monitor.component))
+    const bool pressure = is_pressure(monitor.component);
+    if (is_extreme(monitor.component))
       problems.add(deck.path.position, "path.watch",
-                   "\"" + name + "\" is what is greatest along a member, which may turn where its place jumps",
+                   "\"" + name + "\" is what is greatest or least along a member, which may turn where its place jumps",
                    pressure ? "watch the displacement of a place, as in at = \"MEMBER:0.5\", component = \"z\""
                             : "watch the moment at a place, as in at = \"MEMBER:0.5\", component = \"moment\"");
   }

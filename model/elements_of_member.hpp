@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "model/member_greatest.hpp"
+#include "model/member_extreme.hpp"
 #include "model/section_forces.hpp"
 
 /// The elements of a member on either kind of mesh, and differences by their unknowns.

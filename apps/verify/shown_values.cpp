@@ -193,8 +193,7 @@ void check_point_loads(const PointAtHand& at, Findings& findings) {
 
 std::optional<double> own_value(const PointAtHand& at, const deck::Monitor& monitor) {
   if (monitor.component == deck::Component::gap) return gap(at, monitor);
-  if (monitor.of() != deck::Monitored::spring || monitor.component == deck::Component::greatest_pressure)
-    return std::nullopt;
+  if (monitor.of() != deck::Monitored::spring || is_pressure(monitor.component)) return std::nullopt;
   const deck::Spring& spring = *deck::find(at.model.deck().springs, monitor.spring);
   return spring_force(at.model, at.point.state, spring, direction_of(monitor.component));
 }
@@ -227,9 +226,12 @@ void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double 
                     Findings& findings) {
   constexpr double same = 1e-9;  // of the value: that of the place that is shown, where several have nearly as much
   const Model& model = at.model;
-  double most = 0.0;
+  double most = 0.0, least = infinity;
   const auto look_along = [&](std::size_t member, const auto& quantity) {
-    for (const ShapePoint& point : model.body().shape(member, at.point.state)) most = std::max(most, quantity(point));
+    for (const ShapePoint& point : model.body().shape(member, at.point.state)) {
+      most = std::max(most, quantity(point));
+      least = std::min(least, quantity(point));
+    }
   };
   if (monitor.component == deck::Component::max_moment) {
     look_along(index_of_member(model, monitor.member), [](const ShapePoint& point) { return std::abs(point.moment); });
@@ -242,8 +244,13 @@ void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double 
     look_along(index_of_member(model, foundation.member),
                [&](const ShapePoint& point) { return pressure_of(foundation, point.displacement); });
   }
-  findings.compare("maximum along a member", most - shown, same * std::abs(shown) + roundoff,
-                   "monitor " + monitor.name);
+  const double allowed = same * std::abs(shown) + roundoff;
+  if (monitor.component == deck::Component::least_pressure)
+    return findings.compare("minimum along a member", shown - least, allowed, "monitor " + monitor.name);
+  if (monitor.component == deck::Component::mean_pressure)
+    return findings.compare("mean along a member", std::max(shown - most, least - shown), allowed,
+                            "monitor " + monitor.name);
+  findings.compare("maximum along a member", most - shown, allowed, "monitor " + monitor.name);
 }
 
 }  // namespace arcwall::verify

@@ -29,7 +29,7 @@ std::vector<OuterFibres> outer_fibres(const deck::Deck& deck, const deck::Monito
 void check_point_loads(const PointAtHand& at, Findings& findings);
 
 /// No section that a picture of the point shows carries more than the greatest moment, stress or pressure along its
-/// member.
+/// member, or less than the least pressure; the mean pressure lies between.
 void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double shown, double roundoff,
                     Findings& findings);
 

@@ -31,7 +31,7 @@ bool is_reaction(deck::Component component) {
 double roundoff_of_force(const Model& model, const std::string& monitor, deck::Component component) {
   const double force = 10.0 * model.structure().force_roundoff(), length = model.structure().length_scale();
   if (component == deck::Component::max_moment) return force * length;
-  if (component == deck::Component::greatest_pressure) return force / length;
+  if (is_pressure(component)) return force / length;
   if (is_stress(component)) {
     double most = 0.0;
     for (const OuterFibres& fibres : outer_fibres(model.deck(), *deck::find(model.deck().monitors, monitor)))
@@ -48,7 +48,7 @@ double roundoff_of(const MonitorColumn& column, const Model& model) {
   // their operations.
   constexpr double turn = 1e-7;
   if (column.is_place) return turn;
-  if (is_reaction(column.component) || is_greatest(column.component))
+  if (is_reaction(column.component) || is_extreme(column.component))
     return roundoff_of_force(model, column.name, column.component);
   constexpr double place = 1e-14, gap = 1e-12;
   return (column.component == deck::Component::gap ? gap : place) * model.structure().length_scale();
@@ -66,7 +66,7 @@ void add_monitors(const PointAtHand& at, PathExpectation& expected, Findings& fi
     double value = column.quantity->value(at.point.state);
     if (const deck::Monitor* monitor = deck::find(model.deck().monitors, column.name)) {
       if (const auto own = own_value(at, *monitor)) value = monitor->sign * column.factor * *own;
-      if (is_greatest(column.component))
+      if (is_extreme(column.component) || column.component == deck::Component::mean_pressure)
         check_greatest(at, *monitor, std::abs(value) / column.factor,
                        roundoff_of_force(model, column.name, column.component), findings);
     }

@@ -331,13 +331,22 @@ enum class Component {
   utilisation,
   greatest_pressure,
   thickness,
-  thickness2
+  thickness2,
+  least_pressure,
+  mean_pressure
 };
 
-/// Whether it is the greatest that sections along members carry, whose place may jump.
-constexpr bool is_greatest(Component component) {
+/// Whether it is the greatest or least that sections along members carry, whose place may jump.
+constexpr bool is_extreme(Component component) {
   return component == Component::max_moment || component == Component::max_stress ||
-         component == Component::utilisation || component == Component::greatest_pressure;
+         component == Component::utilisation || component == Component::greatest_pressure ||
+         component == Component::least_pressure;
+}
+
+/// Whether it is of the pressure of a foundation.
+constexpr bool is_pressure(Component component) {
+  return component == Component::greatest_pressure || component == Component::least_pressure ||
+         component == Component::mean_pressure;
 }
 
 /// Whether it is the place of an edge of contact.

@@ -344,6 +344,8 @@ Owner owner_of(Component component) {
     case Component::utilisation:
       return {"a member or the whole structure", "write `member` instead, or leave out `at` for all members"};
     case Component::greatest_pressure:
+    case Component::least_pressure:
+    case Component::mean_pressure:
       return {"a foundation", "write `spring` with the name of a [[spring]] that has `on`"};
     case Component::x:
     case Component::z:
@@ -398,8 +400,10 @@ bool check_owner(Keys& keys, const Monitor& monitor) {
       keys.report("at", "the monitor has none of `at`, `wall`, `member` and `spring`", what_to_monitor);
       return false;
     case Monitored::spring:
-      return is_force(component) || component == Component::greatest_pressure ||
-             refuse("a spring has no " + word, "give force-x, force-z or moment, or greatest-pressure of a foundation");
+      return is_force(component) || is_pressure(component) ||
+             refuse("a spring has no " + word,
+                    "give force-x, force-z or moment, or greatest-pressure, least-pressure or mean-pressure of a "
+                    "foundation");
   }
   return true;
 }
@@ -414,11 +418,12 @@ void check_spring(Keys& keys, const Deck& deck, const Monitor& monitor) {
   const Spring* spring = find(deck.springs, monitor.spring);
   if (spring == nullptr) return;  // it has errors of its own
   const bool along = std::holds_alternative<Foundation>(spring->kind);
-  if (along != (monitor.component == Component::greatest_pressure))
-    return keys.report("component",
-                       "spring " + monitor.spring + " is " + (along ? "a foundation" : "no foundation") +
-                           ", which has no " + text_of(component_words, monitor.component),
-                       along ? "give greatest-pressure" : "give force-x, force-z or moment");
+  if (along != is_pressure(monitor.component))
+    return keys.report(
+        "component",
+        "spring " + monitor.spring + " is " + (along ? "a foundation" : "no foundation") + ", which has no " +
+            text_of(component_words, monitor.component),
+        along ? "give greatest-pressure, least-pressure or mean-pressure" : "give force-x, force-z or moment");
   const Dof direction = direction_of(monitor.component);
   if (!along && !acts_in(*spring, direction))
     keys.report("component",

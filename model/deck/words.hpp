@@ -76,7 +76,7 @@ inline constexpr Words<ContactLaw::Method, 3> contact_method_words{{{"multiplier
                                                                     {"augmented", ContactLaw::Method::augmented}}};
 inline constexpr Words<ContactPoints, 2> contact_points_words{
     {{"nodes", ContactPoints::nodes}, {"moving", ContactPoints::moving}}};
-inline constexpr Words<Component, 21> component_words{{{"x", Component::x},
+inline constexpr Words<Component, 23> component_words{{{"x", Component::x},
                                                        {"z", Component::z},
                                                        {"rotation", Component::rotation},
                                                        {"face-above-z", Component::face_above_z},
@@ -95,6 +95,8 @@ inline constexpr Words<Component, 21> component_words{{{"x", Component::x},
                                                        {"max-stress", Component::max_stress},
                                                        {"utilisation", Component::utilisation},
                                                        {"greatest-pressure", Component::greatest_pressure},
+                                                       {"least-pressure", Component::least_pressure},
+                                                       {"mean-pressure", Component::mean_pressure},
                                                        {"thickness", Component::thickness},
                                                        {"thickness2", Component::thickness2}}};
 inline constexpr Words<Component, 3> control_words{

@@ -347,6 +347,44 @@ path = { step = 0.2, output_at = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lam
   }
 }
 
+// A beam of length 1 that hardly bends, on soil, with a force F on its end: p = F (1 + 6 x), x from its middle. It is
+// zero at a third of the length, 4 F at the loaded end, and its mean size is 5 F/3. With F at 5/8 of the length it is F
+// (1 + 1.5 x). Under a uniform load it is the same everywhere.
+TEST(FoundationMonitor, ShowsTheLeastAndTheMeanPressure) {
+  const auto resting = [](const std::string& load, const std::string& theory) {
+    return TracedDeck(R"toml(
+title = "A stiff beam on soil"
+material.m = { E = 1e7, nu = 0.0 }
+section.s = { shape = "general", A = 1.0, I = 1.0 }
+point = { A = [0.0, 0.0], B = [1.0, 0.0] }
+support = { A = ["x"] }
+spring = [{ name = "soil", on = "beam", foundation = { z = 2.0 } }]
+path = { step = 0.2, output_at = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
+member.beam = { from = "A", to = "B", elements = 8, material = "m", section = "s", )toml" +
+                      theory + " }\n" + load + monitor("most", "spring = \"soil\"", "greatest-pressure") +
+                      monitor("least", "spring = \"soil\"", "least-pressure") +
+                      monitor("mean", "spring = \"soil\"", "mean-pressure"));
+  };
+  for (const std::string theory : {"theory = \"euler-bernoulli\"", "theory = \"elastica\"", "theory = \"reissner\""}) {
+    SCOPED_TRACE(theory);
+    constexpr double F = 1e-4;
+    const TracedDeck tilted = resting("load = [{ at = \"B\", force = [0.0, -1e-4] }]\n", theory);
+    EXPECT_NEAR(last(tilted, "most"), 4.0 * F, 1e-5 * F);
+    EXPECT_EQ(last(tilted, "least"), 0.0);
+    EXPECT_NEAR(last(tilted, "least-place"), 1.0 / 3.0, 1e-5);
+    EXPECT_NEAR(last(tilted, "mean"), 5.0 / 3.0 * F, 1e-5 * F);
+    expect_confirmed(tilted);
+    const TracedDeck pressed = resting("load = [{ at = \"beam:0.625\", force = [0.0, -1e-4] }]\n", theory);
+    EXPECT_NEAR(last(pressed, "least"), 0.25 * F, 1e-5 * F);
+    EXPECT_NEAR(last(pressed, "least-place"), 0.0, 1e-9);
+    EXPECT_NEAR(last(pressed, "mean"), F, 1e-5 * F);
+    expect_gradients(pressed);
+    expect_confirmed(pressed);
+    const TracedDeck even = resting("load = [{ on = \"beam\", distributed = [0.0, -1e-4] }]\n", theory);
+    for (const char* name : {"most", "least", "mean"}) EXPECT_NEAR(last(even, name), F, 1e-10);
+  }
+}
+
 TEST(NewMonitors, AreRefusedWhereThereIsNothingToShow) {
   const auto with = [](const std::string& monitor, const std::string& more = "") {
     return said_of(beam("theory = \"elastica\"", 4, simply_supported + R"toml(

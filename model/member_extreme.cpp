@@ -1,10 +1,11 @@
-#include "model/member_greatest.hpp"
+#include "model/member_extreme.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/root_find.hpp"
+#include "elements/shape_functions.hpp"
 #include "model/central_differences.hpp"
 
 namespace arcwall {
@@ -59,6 +60,22 @@ std::vector<double> turns(const std::function<double(double)>& f, double from, d
   return found;
 }
 
+// Where it changes its sign between two places, with those at which it turns between them.
+std::vector<double> zeros(const std::function<double(double)>& f, double from, double to,
+                          const std::vector<double>& turns) {
+  constexpr double tolerance = 1e-14;
+  const auto at = [&](double place) { return std::optional(f(place)); };
+  std::vector<double> places{from}, found;
+  places.insert(places.end(), turns.begin(), turns.end());
+  places.push_back(to);
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const double a = f(places[i]), b = f(places[i + 1]);
+    if (a * b < 0.0)
+      if (const auto root = bracketed_root(at, places[i], a, places[i + 1], b, tolerance)) found.push_back(root->at);
+  }
+  return found;
+}
+
 // The part of a stretch that belongs to the member.
 std::pair<double, double> within_member(const MemberStretch& stretch) {
   const auto xi = [&](double fraction) { return (fraction - stretch.from) / (stretch.to - stretch.from); };
@@ -71,29 +88,34 @@ double fraction_at(const MemberStretch& stretch, double xi) {
 
 }  // namespace
 
-void MemberGreatest::look_in(const MemberStretch& stretch, Found& greatest, Index element, std::size_t number) const {
+void MemberExtreme::look_in(const MemberStretch& stretch, Found& extreme, Index element, std::size_t number) const {
   const auto [from, to] = within_member(stretch);
   if (!(from < to)) return;
-  const auto consider = [&](const auto& f, std::size_t quantity, double xi, Found::Kind kind) {
-    const double value = std::abs(f(xi));
-    if (greatest.value >= 0.0 && !(value > greatest.value * (1.0 + exceeds))) return;
-    greatest = {.value = value,
-                .fraction = fraction_at(stretch, xi),
-                .quantity = quantity,
-                .element = element,
-                .stretch = number,
-                .xi = xi,
-                .kind = kind};
+  const auto is_beyond = [&](double value, double other) {
+    return which_ == Which::greatest ? value > other * (1.0 + exceeds) : value < other * (1.0 - exceeds);
+  };
+  const auto consider = [&](double value, std::size_t quantity, double xi, Found::Kind kind) {
+    if (extreme.value && !is_beyond(value, *extreme.value)) return;
+    extreme = {.value = value,
+               .fraction = fraction_at(stretch, xi),
+               .quantity = quantity,
+               .element = element,
+               .stretch = number,
+               .xi = xi,
+               .kind = kind};
   };
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     const auto f = [&](double xi) { return quantities_[i](stretch, xi); };
-    consider(f, i, from, from > 0.0 ? Found::Kind::end : Found::Kind::node);
-    for (const double xi : turns(f, from, to)) consider(f, i, xi, Found::Kind::inside);
-    consider(f, i, to, to < 1.0 ? Found::Kind::end : Found::Kind::node);
+    const std::vector<double> turning = turns(f, from, to);
+    consider(std::abs(f(from)), i, from, from > 0.0 ? Found::Kind::end : Found::Kind::node);
+    for (const double xi : turning) consider(std::abs(f(xi)), i, xi, Found::Kind::inside);
+    if (which_ == Which::least)
+      for (const double xi : zeros(f, from, to, turning)) consider(0.0, i, xi, Found::Kind::inside);
+    consider(std::abs(f(to)), i, to, to < 1.0 ? Found::Kind::end : Found::Kind::node);
   }
 }
 
-MemberGreatest::Found MemberGreatest::greatest(const State& state) const {
+MemberExtreme::Found MemberExtreme::extreme(const State& state) const {
   Found found;
   std::vector<MemberStretch> stretches;
   for (Index element = 0; element < member_->elements(state); ++element) {
@@ -104,36 +126,81 @@ MemberGreatest::Found MemberGreatest::greatest(const State& state) const {
   return found;
 }
 
-double MemberGreatest::value(const State& state) const {
-  const Found found = greatest(state);
-  if (what_ == What::value) return found.value;
-  return found.value > negligible_ ? found.fraction : 0.0;
+double MemberExtreme::value(const State& state) const {
+  const Found found = extreme(state);
+  const double value = found.value.value_or(0.0);
+  if (what_ == What::value) return value;
+  return value > negligible_ || which_ == Which::least ? found.fraction : 0.0;
 }
 
 // What it was asked for at the place that was found, in a state beside it: a node goes along with the mesh, an end of
 // the member stays, and so does what turns, but for its fraction, which is that of the turn nearest to it.
-double MemberGreatest::again(const State& state, const Found& found) const {
+double MemberExtreme::again(const State& state, const Found& found) const {
   std::vector<MemberStretch> stretches;
   member_->add_stretches(state, found.element, stretches);
   const MemberStretch& stretch = stretches[std::min(found.stretch, stretches.size() - 1)];  // a load may leave it
   double xi = found.xi;
   if (found.kind == Found::Kind::end) xi = (found.fraction - stretch.from) / (stretch.to - stretch.from);
   const SectionQuantity& quantity = quantities_[found.quantity];
-  if (what_ == What::value) return std::abs(quantity(stretch, xi));
+  const bool is_zero = found.value == 0.0 && found.kind == Found::Kind::inside;
+  if (what_ == What::value) return is_zero ? 0.0 : std::abs(quantity(stretch, xi));
   if (found.kind == Found::Kind::inside) {
     const auto [from, to] = within_member(stretch);
-    const std::vector<double> places = turns([&](double at) { return quantity(stretch, at); }, from, to);
+    const auto f = [&](double at) { return quantity(stretch, at); };
+    std::vector<double> places = turns(f, from, to);
+    if (is_zero) places = zeros(f, from, to, places);
     const auto nearer = [&](double a, double b) { return std::abs(a - found.xi) < std::abs(b - found.xi); };
     if (!places.empty()) xi = *std::min_element(places.begin(), places.end(), nearer);
   }
   return fraction_at(stretch, xi);
 }
 
-Row MemberGreatest::gradient(const State& state) const {
-  const Found found = greatest(state);
+Row MemberExtreme::gradient(const State& state) const {
+  const Found found = extreme(state);
   Vector steps = Vector::Zero(state.x.size());
   for (const ElementsOfMember::Step& step : member_->steps(state, found.element)) steps[step.unknown] = step.size;
   return central_differences(state, steps, [&](const State& moved) { return again(moved, found); });
+}
+
+// ∫ |f| over the element, by the fraction of the member: Gauss's rule between zeros, exact for the cubic axis of a
+// foundation of one stiffness.
+double MemberMean::part_of(const State& state, Index element) const {
+  std::vector<MemberStretch> stretches;
+  member_->add_stretches(state, element, stretches);
+  const GaussRule rule = gauss_rule(3);
+  double sum = 0.0;
+  for (const MemberStretch& stretch : stretches) {
+    const auto [from, to] = within_member(stretch);
+    if (!(from < to)) continue;
+    const auto f = [&](double xi) { return quantity_(stretch, xi); };
+    std::vector<double> places = zeros(f, from, to, turns(f, from, to));
+    places.insert(places.begin(), from);
+    places.push_back(to);
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+      const double half = 0.5 * (places[i + 1] - places[i]);
+      for (std::size_t g = 0; g < 3; ++g)
+        sum += (stretch.to - stretch.from) * half * rule.weight[g] * std::abs(f(places[i] + half * (1.0 + rule.xi[g])));
+    }
+  }
+  return sum;
+}
+
+double MemberMean::value(const State& state) const {
+  double sum = 0.0;
+  for (Index element = 0; element < member_->elements(state); ++element) sum += part_of(state, element);
+  return sum;
+}
+
+Row MemberMean::gradient(const State& state) const {
+  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  for (Index element = 0; element < member_->elements(state); ++element) {
+    Vector steps = Vector::Zero(state.x.size());
+    for (const ElementsOfMember::Step& step : member_->steps(state, element)) steps[step.unknown] = step.size;
+    const Row part = central_differences(state, steps, [&](const State& moved) { return part_of(moved, element); });
+    row.dx += part.dx;
+    row.dlambda += part.dlambda;
+  }
+  return row;
 }
 
 std::size_t GreatestOfMembers::greatest(const State& state) const {

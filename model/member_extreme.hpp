@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/observable.hpp"
@@ -31,27 +32,32 @@ class ElementsOfMember {
 /// What a section carries, at ξ ∈ [0, 1] of a stretch.
 using SectionQuantity = std::function<double(const MemberStretch& stretch, double xi)>;
 
-/// The greatest absolute value of some quantities along a whole member, between nodes too, or the fraction of the
-/// member at which it is: the first of those that have it within 10⁻¹⁰.
+/// The greatest or least absolute value of some quantities along a whole member, between nodes too, or the fraction of
+/// the member at which it is: the first of those that have it within 10⁻¹⁰. The least is 0 where one changes its sign.
 ///
 /// The value is continuous along a path, the place may jump. Gradients are central differences within the element that
 /// has it: what moves the place within it does not change the value. Of a node they are those of the element before it,
 /// with which the one behind it agrees in directions that keep the equilibrium.
-class MemberGreatest final : public Observable {
+class MemberExtreme final : public Observable {
  public:
+  enum class Which { greatest, least };
   enum class What { value, place };
 
   /// `negligible`: up to this the quantities are round-off, and their place is 0.
-  MemberGreatest(std::shared_ptr<const ElementsOfMember> member, std::vector<SectionQuantity> quantities, What what,
-                 double negligible = 0.0)
-      : member_(std::move(member)), quantities_(std::move(quantities)), what_(what), negligible_(negligible) {}
+  MemberExtreme(std::shared_ptr<const ElementsOfMember> member, std::vector<SectionQuantity> quantities, Which which,
+                What what, double negligible = 0.0)
+      : member_(std::move(member)),
+        quantities_(std::move(quantities)),
+        which_(which),
+        what_(what),
+        negligible_(negligible) {}
 
   double value(const State& state) const override;
   Row gradient(const State& state) const override;
 
  private:
   struct Found {
-    double value = -1.0;  // absolute
+    std::optional<double> value{};  // absolute
     double fraction = 0.0;
     std::size_t quantity = 0;
     Index element = 0;
@@ -59,14 +65,31 @@ class MemberGreatest final : public Observable {
     double xi = 0.0;                                          // of the stretch
     enum class Kind { node, inside, end } kind = Kind::node;  // of the stretch, or of the member
   };
-  Found greatest(const State& state) const;
-  void look_in(const MemberStretch& stretch, Found& greatest, Index element, std::size_t number) const;
+  Found extreme(const State& state) const;
+  void look_in(const MemberStretch& stretch, Found& extreme, Index element, std::size_t number) const;
   double again(const State& state, const Found& found) const;
 
   std::shared_ptr<const ElementsOfMember> member_;
   std::vector<SectionQuantity> quantities_;
+  Which which_;
   What what_;
   double negligible_;
+};
+
+/// The mean absolute value of a quantity along a whole member.
+class MemberMean final : public Observable {
+ public:
+  MemberMean(std::shared_ptr<const ElementsOfMember> member, SectionQuantity quantity)
+      : member_(std::move(member)), quantity_(std::move(quantity)) {}
+
+  double value(const State& state) const override;
+  Row gradient(const State& state) const override;
+
+ private:
+  double part_of(const State& state, Index element) const;
+
+  std::shared_ptr<const ElementsOfMember> member_;
+  SectionQuantity quantity_;
 };
 
 /// A number that no state changes.
