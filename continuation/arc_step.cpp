@@ -236,6 +236,7 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
     accepted.visit = std::move(passed->visit);
     accepted.strategies = std::move(passed->strategies);
     if (!accepted.end) accepted.end = std::move(passed->end);
+    accepted.arc.arrives = {.state = std::move(end.point.state), .tangent = std::move(end.point.tangent)};
     end.point = std::move(passed->at);
     // Behind a change of contact that was not left nothing is counted.
     if (accepted.end && passed->events.empty() && !passed->entered) end.point.count = origin.from.count_after;

@@ -78,6 +78,9 @@ class Explorer {
 
   const std::vector<BranchRecord>& branches() const { return branches_; }
 
+  /// Returns the start point of the next step of the current branch, as Tracer::here(). Requires an arc of next().
+  const PathPoint& departure() const { return tracer_->here(); }
+
   /// Ends the current branch at its last point.
   void end_branch(const BranchEnd& end) {
     if (tracer_ && !tracer_->end()) tracer_->stop(end);

@@ -131,10 +131,17 @@ struct BranchEnd {
   std::optional<Continuum> continuum{};  ///< of equilibrium_family
 };
 
+/// Stores a state of a path and the forward unit tangent there.
+struct PathTangent {
+  State state{};
+  Direction tangent{};
+};
+
 /// Stores one accepted step and the events at its end. The first arc of a branch has length zero.
 struct Arc {
   PathPoint to{};
   std::vector<Event> events{};
+  std::optional<PathTangent> arrives{};  ///< its end on the active set along which it runs; empty: `to` has that one
 };
 
 }  // namespace arcwall

@@ -26,6 +26,12 @@ struct RecordForce {
   std::optional<double> pressure{};  ///< [force/length]; empty of a point force
 };
 
+/// Stores the derivatives of λ and of the monitors by the arc length, along the path.
+struct RecordRates {
+  double lambda = 0.0;
+  std::vector<double> monitors{};  ///< one a column of the record
+};
+
 /// Stores a point, a row of path.csv.
 struct RecordPoint {
   Index branch = 0;
@@ -41,6 +47,8 @@ struct RecordPoint {
   double residual = 0.0;             ///< relative
   std::optional<EventKind> event{};  ///< if several: the last that is no contact change, else the last
   std::vector<RecordForce> forces{};
+  std::optional<RecordRates> rates{};        ///< just before the point; empty of load increments
+  std::optional<RecordRates> rates_after{};  ///< just after it, where the path has a kink; else empty
   State state{};
 };
 

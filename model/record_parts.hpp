@@ -17,9 +17,15 @@ void parts(Archive& archive, RecordForce& force) {
 }
 
 template <typename Archive>
+void parts(Archive& archive, RecordRates& rates) {
+  archive(rates.lambda, rates.monitors);
+}
+
+template <typename Archive>
 void parts(Archive& archive, RecordPoint& point) {
   archive(point.branch, point.step, point.arc, point.lambda, point.monitors, point.count, point.unstable_load_control,
-          point.contacts, point.energy, point.iterations, point.residual, point.event, point.forces, point.state);
+          point.contacts, point.energy, point.iterations, point.residual, point.event, point.forces, point.rates,
+          point.rates_after, point.state);
 }
 
 template <typename Archive>

@@ -40,6 +40,15 @@ std::vector<RecordForce> forces_at(const Model* model, const State& state) {
   return forces;
 }
 
+// Empty without a tangent.
+std::optional<RecordRates> rates_along(const Model* model, const State& state, const Direction& tangent) {
+  if (model == nullptr || tangent.dx.size() != state.x.size() || state.x.size() == 0) return std::nullopt;
+  RecordRates rates{.lambda = tangent.dlambda};
+  for (const MonitorColumn& monitor : model->monitors())
+    rates.monitors.push_back(apply(monitor.quantity->gradient(state), tangent));
+  return rates;
+}
+
 // The critical mode has no λ, and only that of a smooth crossing is known.
 std::vector<double> mode_rates(const Model* model, const BranchPoint& point) {
   std::vector<double> result;
@@ -91,8 +100,10 @@ void Recorder::begin(const BranchRecord& branch) {
   record_.branches.push_back(std::move(added));
 }
 
-void Recorder::add(const Arc& arc) {
+void Recorder::add(const Arc& arc, const PathPoint& leaves) {
   const PathPoint& to = arc.to;
+  const PathTangent arrives = arc.arrives.value_or(PathTangent{.state = to.state, .tangent = to.tangent});
+  const bool has_kink = leaves.state.active_set != arrives.state.active_set;
   record_.points.push_back(
       {.branch = branch().id,
        .step = branch().points,
@@ -106,6 +117,8 @@ void Recorder::add(const Arc& arc) {
        .iterations = to.iterations,
        .residual = to.residual,
        .forces = forces_at(model_, to.state),
+       .rates = rates_along(model_, arrives.state, arrives.tangent),
+       .rates_after = has_kink ? rates_along(model_, leaves.state, leaves.tangent) : std::nullopt,
        .state = to.state});
   ++branch().points;
   branch().least_lambda = std::min(branch().least_lambda, to.state.lambda);

@@ -24,8 +24,10 @@ class Recorder {
     return {&model, model.system(), record, record.branches.size() - 1};
   }
 
-  /// The arc's end as a point, and its events.
-  void add(const Arc& arc);
+  /// The arc's end as a point, and its events. `leaves`: where the next arc begins, which has another tangent if the
+  /// active set has changed.
+  void add(const Arc& arc, const PathPoint& leaves);
+  void add(const Arc& arc) { add(arc, arc.to); }
 
   /// The end of the branch, as an event of its last point. A branch without points has no such event.
   void end(const BranchEnd& end);

@@ -61,8 +61,13 @@ bool is_whole(const Record& record, std::size_t ended_stages) {
     if ((branch.origin && !has_event(*branch.origin)) || branch.stage < 0 ||
         branch.stage > static_cast<Index>(ended_stages))
       return false;
+  const auto are_all = [&](const std::optional<RecordRates>& rates) {
+    return !rates || rates->monitors.size() == record.columns.size();
+  };
   for (const RecordPoint& point : record.points)
-    if (!has_branch(point.branch) || point.monitors.size() != record.columns.size()) return false;
+    if (!has_branch(point.branch) || point.monitors.size() != record.columns.size() || !are_all(point.rates) ||
+        !are_all(point.rates_after))
+      return false;
   for (const RecordEvent& event : record.events)
     if (!has_branch(event.branch) || event.monitors.size() != record.columns.size() ||
         (event.jump && !is_whole(record, *event.jump)))

@@ -47,7 +47,7 @@ class PathTracing final : public Tracing {
       recorder_.emplace(model_, record_, begun);
       if (begun.after_jump) leads_here(*begun.parent);
     }
-    recorder_->add(step->arc);
+    recorder_->add(step->arc, explorer_.departure());
     const std::size_t first_event = record_.events.size() - step->arc.events.size();
     for (std::size_t i = 0; i < step->arc.events.size(); ++i)
       record_.events[first_event + i].sensitivity = sensitivities_.of(step->arc, step->arc.events[i]);
