@@ -54,6 +54,7 @@ std::vector<OnPath> stable_at(const Model& model, const Record& record, double l
 
 void tell_state(const Model& model, const State& state, RecordJump& jump) {
   jump.lambda = state.lambda;
+  jump.state = state;
   for (const MonitorColumn& column : model.monitors()) jump.monitors.push_back(column.quantity->value(state));
   jump.contacts = stretches_of(model, state);
   jump.contact_pattern = contact_pattern_of(jump.contacts);

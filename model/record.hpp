@@ -93,6 +93,7 @@ struct RecordJump {
   std::shared_ptr<const RecordReturn> on_return{};  ///< jump as λ reverses; null: no loss of stability is known
   std::optional<double> energy_dissipated{};        ///< energy lost in a closed loop [force·length]
   std::vector<RecordJump> destinations{};           ///< of `two_destinations`: one for each sign of the mode
+  State state{};                                    ///< equilibrium after the jump; without entries if there is none
 };
 
 /// Stores the loss of stability of the destination of a jump as λ reverses.

@@ -59,7 +59,7 @@ template <typename Archive>
 void parts(Archive& archive, RecordJump& jump) {
   archive(jump.reason, jump.why, jump.lambda, jump.monitors, jump.contacts, jump.contact_pattern, jump.energy,
           jump.energy_released, jump.unstable, jump.on_branch, jump.arc, jump.point, jump.energy_dissipated,
-          jump.destinations);
+          jump.destinations, jump.state);
   keep_owned(archive, jump.on_return);
 }
 

@@ -32,6 +32,7 @@ bool is_whole(const Record& record, const RecordJump& jump) {
   const auto are_all = [&](const std::vector<double>& monitors) { return monitors.size() == record.columns.size(); };
   const bool has_none = jump.monitors.empty() && !jump.reason.empty();
   if (jump.point >= record.points.size() || !(are_all(jump.monitors) || has_none)) return false;
+  if (jump.reason.empty() && jump.state.x.size() == 0) return false;
   if (jump.on_branch && (*jump.on_branch < 0 || *jump.on_branch >= static_cast<Index>(record.branches.size())))
     return false;
   if (jump.on_return &&
