@@ -64,6 +64,21 @@ Eigen::AlignedBox2d reach(const Model& model) {
   return {box.min() - Vec2::Constant(margin), box.max() + Vec2::Constant(margin)};
 }
 
+bool is_closed(const deck::Wall& wall) {
+  if (!wall.outline) return false;
+  if (const auto* points = std::get_if<deck::PolylineOutline>(&*wall.outline)) return points->closed;
+  if (const auto* points = std::get_if<deck::CurveOutline>(&*wall.outline)) return points->closed;
+  return !std::holds_alternative<deck::HalfPlaneOutline>(*wall.outline);
+}
+
+// At rest, into the solid of a wall that has no end.
+std::optional<Vec2> behind(const deck::Wall& wall) {
+  if (!wall.outline) return Vec2(0.0, wall.side == Side::above ? 1.0 : -1.0);
+  if (const auto* plane = std::get_if<deck::HalfPlaneOutline>(&*wall.outline))
+    return -Vec2(plane->normal.x, plane->normal.z).normalized();
+  return std::nullopt;
+}
+
 }  // namespace
 
 // Of a wall that climbs out of the structure's reach only what lies between its first and last place within; all of one
@@ -73,6 +88,11 @@ std::vector<WallShape> wall_shapes(const Model& model, double lambda) {
   std::vector<WallShape> walls;
   for (const deck::Wall& wall : model.deck().walls) {
     std::vector<Vec2> line = obstacle_of(wall)->outline(box.min().x(), box.max().x(), lambda);
+    std::vector<Vec2> whole;
+    for (const Vec2& point : line) whole.push_back(model.frame().place(point));
+    const RigidMotion motion = motion_of(wall);
+    std::optional<Vec2> into = behind(wall);
+    if (into) into = motion.moved(*into, lambda) - motion.moved(Vec2::Zero(), lambda);
     const auto inside = [&](const Vec2& point) { return box.contains(point); };
     auto first = std::find_if(line.begin(), line.end(), inside);
     auto last = std::find_if(line.rbegin(), line.rend(), inside).base();
@@ -82,7 +102,11 @@ std::vector<WallShape> wall_shapes(const Model& model, double lambda) {
                      .side = wall.side,
                      .is_outline = wall.outline.has_value(),
                      .line = {first, last},
-                     .moves = !motion_of(wall).is_none()});
+                     .whole = std::move(whole),
+                     .closed = is_closed(wall),
+                     .behind = into,
+                     .members = wall.members,
+                     .moves = !motion.is_none()});
   }
   return walls;
 }

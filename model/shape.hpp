@@ -36,9 +36,14 @@ Shape shape_of(const Model& model, const State& state);
 struct WallShape {
   std::string name{};
   Side side = Side::above;
-  bool is_outline = false;   ///< the body is to the left of its line, whatever its side
-  std::vector<Vec2> line{};  ///< x of a profile ascends, unless λ has turned the wall upright
-  bool moves = false;        ///< λ moves it
+  bool is_outline = false;       ///< the body is to the left of its line, whatever its side
+  std::vector<Vec2> line{};      ///< x of a profile ascends, unless λ has turned the wall upright
+  std::vector<Vec2> whole{};     ///< the line together with its parts beyond the structure's reach
+  bool closed = false;           ///< the last point of `whole` is joined to the first
+  std::optional<Vec2> behind{};  ///< unit vector into the solid of a profile or half-plane; empty: the solid is on
+                                 ///< the right of the line
+  std::vector<std::string> members{};  ///< that the wall concerns; empty: all
+  bool moves = false;                  ///< λ moves it
 };
 
 /// Returns the section heights of the members, in the deck's order; 0 for bars and unknown heights [length].

@@ -89,7 +89,9 @@ TEST(ShapePictures, ArrowsOfWallsAreToOneScale) {
 }
 
 TEST(ShapePictures, WallsFarAwayDoNotShrinkThePicture) {
-  const auto wall = [](double z) { return WallShape{.side = Side::below, .line = {{-9.0, z}, {9.0, z}}}; };
+  const auto wall = [](double z) {
+    return WallShape{.side = Side::below, .line = {{-9.0, z}, {9.0, z}}, .whole = {{-9.0, z}, {9.0, z}}};
+  };
   const std::vector<Scene> scenes{scene_of_line({{0.0, 0.0}, {1.0, 1.0}})};
   EXPECT_EQ(draw({{0}, scenes}, {.walls = {wall(-0.2)}}).height, 100'000.0);
   EXPECT_LT(draw({{0}, scenes}, {.walls = {wall(-0.2)}}).width, 90'000.0);
