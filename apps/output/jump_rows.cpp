@@ -1,6 +1,7 @@
 #include "apps/output/jump_rows.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "apps/output/events_text.hpp"
 #include "apps/output/shown_number.hpp"
@@ -20,11 +21,14 @@ OrderedJson monitors_json(const Record& record, const std::vector<double>& value
   return json;
 }
 
-void add_jump(const std::vector<double>& from, const RecordJump& jump, std::vector<Jump>& list) {
-  for (const RecordJump& one : jump.destinations) add_jump(from, one, list);
+void add_jump(const RecordEvent& event, const std::vector<double>& from, const RecordJump& jump, bool returns,
+              std::vector<Jump>& list) {
+  for (const RecordJump& one : jump.destinations) add_jump(event, from, one, returns, list);
   if (!jump.reason.empty()) return;
-  list.push_back({.lambda = jump.lambda, .from = from, .to = jump.monitors});
-  if (jump.on_return && jump.on_return->jump) add_jump(jump.on_return->monitors, *jump.on_return->jump, list);
+  list.push_back(
+      {.lambda = jump.lambda, .from = from, .to = jump.monitors, .event = &event, .end = &jump, .returns = returns});
+  if (jump.on_return && jump.on_return->jump)
+    add_jump(event, jump.on_return->monitors, *jump.on_return->jump, true, list);
 }
 
 }  // namespace
@@ -39,6 +43,17 @@ std::vector<TableColumn> jump_columns(const Record& record) {
 }
 
 namespace {
+
+// In the order of the rows.
+std::vector<std::pair<const RecordEvent*, const RecordJump*>> jumps_of_events(const Record& record) {
+  std::vector<std::pair<const RecordEvent*, const RecordJump*>> list;
+  for (const RecordEvent& event : record.events) {
+    if (!event.jump) continue;
+    if (event.jump->destinations.empty()) list.emplace_back(&event, event.jump.get());
+    for (const RecordJump& one : event.jump->destinations) list.emplace_back(&event, &one);
+  }
+  return list;
+}
 
 // `branch 0 near step 12`
 std::string place_of(const Record& record, const RecordJump& jump) {
@@ -69,11 +84,13 @@ std::vector<std::string> jump_row(const Record& record, const RecordEvent& event
 
 std::vector<std::vector<std::string>> jump_rows(const Record& record) {
   std::vector<std::vector<std::string>> rows;
-  for (const RecordEvent& event : record.events) {
-    if (!event.jump) continue;
-    if (event.jump->destinations.empty()) rows.push_back(jump_row(record, event, *event.jump));
-    for (const RecordJump& one : event.jump->destinations) rows.push_back(jump_row(record, event, one));
-  }
+  for (const auto& [event, jump] : jumps_of_events(record)) rows.push_back(jump_row(record, *event, *jump));
+  return rows;
+}
+
+std::vector<const RecordJump*> jumps_of_rows(const Record& record) {
+  std::vector<const RecordJump*> rows;
+  for (const auto& [event, jump] : jumps_of_events(record)) rows.push_back(jump);
   return rows;
 }
 
@@ -115,7 +132,7 @@ OrderedJson jump_json(const Record& record, const RecordJump& jump) {
 std::vector<Jump> jumps(const Record& record) {
   std::vector<Jump> list;
   for (const RecordEvent& event : record.events)
-    if (event.jump) add_jump(event.monitors, *event.jump, list);
+    if (event.jump) add_jump(event, event.monitors, *event.jump, false, list);
   return list;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -169,6 +170,11 @@ std::string title_of_lambda(const std::vector<LoadText>& driven) {
   if (driven.size() != 1) return "load factor λ";
   const LoadText& one = driven.front();
   return shown_name(one.name) + " λ" + (one.size.empty() ? "" : ", times " + shown_name(one.size));
+}
+
+bool is_movement(const std::vector<LoadText>& driven) {
+  const auto is_load = [](const LoadText& one) { return one.key.empty() || one.key.starts_with("load."); };
+  return !driven.empty() && std::none_of(driven.begin(), driven.end(), is_load);
 }
 
 std::vector<std::string> names_of_lambda(const deck::Deck& deck) {

@@ -34,6 +34,9 @@ std::string name_of_lambda(const deck::Deck& deck, const deck::Stage* stage = nu
 /// λ as the title of an axis, with what it multiplies where that is one thing: `load factor λ, times 2 kN`.
 std::string title_of_lambda(const std::vector<LoadText>& driven);
 
+/// Returns true if λ moves supports or walls, and no load depends on it.
+bool is_movement(const std::vector<LoadText>& driven);
+
 /// That of each stage, or of a deck without any.
 std::vector<std::string> names_of_lambda(const deck::Deck& deck);
 

@@ -115,16 +115,34 @@ std::string listed(const std::vector<RecordColumn>& columns) {
 }  // namespace
 
 Overlay overlay_of(const Record& record, const std::string& name) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   Overlay overlay{.name = name};
-  std::vector<double>& lambda = overlay.values["lambda"];
-  for (const RecordPoint& point : record.points) lambda.push_back(point.lambda);
-  for (std::size_t i = 0; i < record.columns.size(); ++i) {
-    std::vector<double>& values = overlay.values[record.columns[i].name];
-    for (const RecordPoint& point : record.points) values.push_back(point.monitors[i]);
-  }
+  for (const RecordPoint& point : record.points) overlay.arc.push_back(point.arc);
+  const auto add = [&](const std::string& column, auto value_of) {
+    for (const RecordPoint& point : record.points) {
+      const auto rate = [&](const std::optional<RecordRates>& rates) { return rates ? value_of(*rates) : unknown; };
+      overlay.values[column].push_back(value_of(point));
+      overlay.rates_before[column].push_back(rate(point.rates));
+      overlay.rates_after[column].push_back(rate(leaving_rates(point)));
+    }
+  };
+  add("lambda", [](const auto& of) { return of.lambda; });
+  for (std::size_t i = 0; i < record.columns.size(); ++i)
+    add(record.columns[i].name, [i](const auto& of) { return of.monitors[i]; });
   overlay.firsts = first_points(record);
   if (!overlay.firsts.empty()) overlay.firsts.pop_back();  // the end of the last branch
   return overlay;
+}
+
+std::optional<CubicStep> cubic_step(const Overlay& overlay, std::size_t i, const std::string& across,
+                                    const std::string& up) {
+  const auto rates = [&](const std::map<std::string, std::vector<double>>& of, std::size_t point) {
+    return Vec2(of.at(across)[point], of.at(up)[point]);
+  };
+  const double length = overlay.arc[i] - overlay.arc[i - 1];
+  const CubicStep step{.begin = length * rates(overlay.rates_after, i - 1),
+                       .end = length * rates(overlay.rates_before, i)};
+  return step.begin.allFinite() && step.end.allFinite() ? std::optional(step) : std::nullopt;
 }
 
 Overlay measured_points(const std::string& text, const std::string& file, const std::vector<RecordColumn>& columns) {

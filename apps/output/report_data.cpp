@@ -73,6 +73,26 @@ OrderedJson points_json(const Record& record) {
        of_points(record, [&](const RecordPoint& point) { return number(without_roundoff(point.energy, no_energy)); })}};
 }
 
+// Of λ and the monitors.
+OrderedJson rates_json(const RecordRates& rates) {
+  constexpr int digits = 6;
+  OrderedJson list = OrderedJson::array({number(rates.lambda, digits)});
+  for (const double rate : rates.monitors) list.push_back(number(rate, digits));
+  return list;
+}
+
+// [point, rates before it, rates after it where they are others] of the points with known rates.
+OrderedJson all_rates_json(const Record& record) {
+  OrderedJson list = OrderedJson::array();
+  for (std::size_t i = 0; i < record.points.size(); ++i) {
+    const RecordPoint& point = record.points[i];
+    if (!point.rates) continue;
+    OrderedJson& added = list.emplace_back(OrderedJson::array({i, rates_json(*point.rates)}));
+    if (point.rates_after) added.push_back(rates_json(*point.rates_after));
+  }
+  return list;
+}
+
 OrderedJson columns_json(const Record& record) {
   OrderedJson columns = OrderedJson::array();
   for (const RecordColumn& column : record.columns)
@@ -99,6 +119,7 @@ OrderedJson events_json(const Record& record) {
     events.push_back({{"point", point_of(event, first)},
                       {"kind", to_text(event.kind)},
                       {"what", plain(event_detail(event), 200)},
+                      {"jumps", event.jump != nullptr},
                       {"symbol", mark.symbol},
                       {"size", 11.0 * mark.size},
                       {"filled", mark.filled}});
@@ -139,12 +160,13 @@ struct GreatestForces {
 
 GreatestForces greatest_forces(const ShapePictures& shapes) {
   GreatestForces greatest;
-  for (const ShapePicture& picture : shapes.pictures)
-    for (const auto& member : picture.forces)
-      for (const ForceSample& sample : member) {
-        greatest.force = std::max({greatest.force, std::abs(sample.axial_force), std::abs(sample.shear_force)});
-        greatest.moment = std::max(greatest.moment, std::abs(sample.moment));
-      }
+  for (const auto* const pictures : {&shapes.pictures, &shapes.after_jumps})
+    for (const ShapePicture& picture : *pictures)
+      for (const auto& member : picture.forces)
+        for (const ForceSample& sample : member) {
+          greatest.force = std::max({greatest.force, std::abs(sample.axial_force), std::abs(sample.shear_force)});
+          greatest.moment = std::max(greatest.moment, std::abs(sample.moment));
+        }
   return greatest;
 }
 
@@ -179,35 +201,54 @@ OrderedJson members_json(const ShapePictures& shapes) {
 
 OrderedJson walls_json(const ShapePictures& shapes) {
   OrderedJson list = OrderedJson::array();
-  for (const std::string& wall : shapes.walls) list.push_back(shown_name(wall));
-  return list;
-}
-
-OrderedJson shapes_json(const ShapePictures& shapes) {
-  const GreatestForces greatest = greatest_forces(shapes);
-  OrderedJson list = OrderedJson::array();
-  for (const ShapePicture& picture : shapes.pictures) {
-    OrderedJson contacts = OrderedJson::array();
-    for (const ContactMark& contact : picture.contacts)
-      contacts.push_back(contact_json(contact, shapes.greatest_force));
-    list.push_back({{"point", picture.point},
-                    {"paths", picture.paths},
-                    {"moves", picture.moves},
-                    {"contacts", std::move(contacts)},
-                    {"forces", forces_json(picture.forces, greatest)}});
+  for (const DrawnWall& wall : shapes.walls) {
+    OrderedJson members = OrderedJson::array();
+    for (const std::string& member : wall.members) members.push_back(shown_name(member));
+    list.push_back({{"name", shown_name(wall.name)}, {"members", std::move(members)}});
   }
   return list;
 }
 
-OrderedJson jumps_json(const Record& record) {
+OrderedJson shape_json(const ShapePictures& shapes, const ShapePicture& picture, const GreatestForces& greatest) {
+  OrderedJson contacts = OrderedJson::array();
+  for (const ContactMark& contact : picture.contacts) contacts.push_back(contact_json(contact, shapes.greatest_force));
+  return {{"point", picture.point},
+          {"paths", picture.paths},
+          {"moves", picture.moves},
+          {"contacts", std::move(contacts)},
+          {"forces", forces_json(picture.forces, greatest)}};
+}
+
+OrderedJson shapes_json(const ShapePictures& shapes, const GreatestForces& greatest) {
+  OrderedJson list = OrderedJson::array();
+  for (const ShapePicture& picture : shapes.pictures) list.push_back(shape_json(shapes, picture, greatest));
+  return list;
+}
+
+// `behind`: the last point of a traced branch before the state after the jump; null off the branches.
+OrderedJson jumps_json(const Record& record, const ShapePictures& shapes, const GreatestForces& greatest) {
+  const std::vector<std::size_t> first = first_points(record);
   const auto list = [](const std::vector<double>& values) {
     OrderedJson json = OrderedJson::array();
     for (const double value : values) json.push_back(number(value));
     return json;
   };
+  const std::vector<Jump> all = jumps(record);
   OrderedJson json = OrderedJson::array();
-  for (const Jump& jump : jumps(record))
-    json.push_back({{"lambda", number(jump.lambda)}, {"from", list(jump.from)}, {"to", list(jump.to)}});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Jump& jump = all[i];
+    OrderedJson& added = json.emplace_back(
+        OrderedJson{{"event", jump.event->id},
+                    {"point", point_of(*jump.event, first)},
+                    {"returns", jump.returns},
+                    {"lambda", number(jump.lambda)},
+                    {"from", list(jump.from)},
+                    {"to", list(jump.to)},
+                    {"energy", number(jump.end->energy)},
+                    {"released", number(jump.end->energy_released)},
+                    {"behind", jump.end->on_branch ? OrderedJson(jump.end->point) : OrderedJson(nullptr)}});
+    if (i < shapes.after_jumps.size()) added["shape"] = shape_json(shapes, shapes.after_jumps[i], greatest);
+  }
   return json;
 }
 
@@ -225,18 +266,27 @@ std::string overlay_colour(std::size_t number) {
 }
 
 OrderedJson overlays_json(const std::vector<Overlay>& overlays) {
+  constexpr int digits = 6;
+  const auto list_of = [](const std::vector<double>& column, auto... of) {
+    OrderedJson numbers = OrderedJson::array();
+    for (const double value : column) numbers.push_back(number(value, of...));
+    return numbers;
+  };
+  const auto columns_of = [&](const std::map<std::string, std::vector<double>>& columns, auto... of) {
+    OrderedJson values = OrderedJson::object();
+    for (const auto& [name, column] : columns) values[name] = list_of(column, of...);
+    return values;
+  };
   OrderedJson list = OrderedJson::array();
   for (std::size_t i = 0; i < overlays.size(); ++i) {
-    OrderedJson values = OrderedJson::object();
-    for (const auto& [name, column] : overlays[i].values) {
-      OrderedJson& numbers = values[name] = OrderedJson::array();
-      for (const double value : column) numbers.push_back(number(value));
-    }
     list.push_back({{"name", shown_name(overlays[i].name)},
                     {"measured", overlays[i].measured},
                     {"colour", overlay_colour(i)},
                     {"firsts", overlays[i].firsts},
-                    {"values", std::move(values)}});
+                    {"values", columns_of(overlays[i].values)},
+                    {"arc", list_of(overlays[i].arc)},
+                    {"before", columns_of(overlays[i].rates_before, digits)},
+                    {"after", columns_of(overlays[i].rates_after, digits)}});
   }
   return list;
 }
@@ -251,20 +301,22 @@ std::string shown_title(const RecordColumn& column) {
 }
 
 OrderedJson report_data(const Record& record, const ShapePictures& shapes) {
+  const GreatestForces greatest = greatest_forces(shapes);
   return {{"columns", columns_json(record)},
           {"force_unit", shown_name(record.force_unit)},
           {"length_unit", shown_name(record.length_unit)},
           {"energy_unit", shown_name(record.energy_unit)},
           {"points", points_json(record)},
+          {"rates", all_rates_json(record)},
           {"lines", lines_json(record)},
           {"events", events_json(record)},
-          {"jumps", jumps_json(record)},
+          {"jumps", jumps_json(record, shapes, greatest)},
           {"uncertain", uncertain_json(record)},
           {"members", members_json(shapes)},
           {"walls", walls_json(shapes)},
           {"greatest_move", number(shapes.greatest_move, 4)},
           {"move_unit", number(shapes.move_unit)},
-          {"shapes", shapes_json(shapes)}};
+          {"shapes", shapes_json(shapes, greatest)}};
 }
 
 }  // namespace arcwall

@@ -29,6 +29,8 @@
 #include "apps/output/shape_svg.hpp"
 #include "apps/output/shown_number.hpp"
 #include "apps/output/svg_chart.hpp"
+#include "model/deck/key_list.hpp"
+#include "model/deck/words.hpp"
 #include "model/deck/writer.hpp"
 #include "model/event_names.hpp"
 #include "model/version.hpp"
@@ -144,21 +146,61 @@ std::string event_text(const Record& record, const RecordEvent& event, const std
 // Other runs, each line of which is a branch, and measured points.
 void add_overlays(const ReportContent& content, const std::string& across, Chart& chart) {
   for (std::size_t i = 0; i < content.overlays.size(); ++i) {
-    const auto& [name, measured, values, firsts] = content.overlays[i];
-    const auto x = values.find(across), y = values.find("lambda");
-    if (x == values.end() || y == values.end()) continue;
+    const Overlay& overlay = content.overlays[i];
+    const auto x = overlay.values.find(across), y = overlay.values.find("lambda");
+    if (x == overlay.values.end() || y == overlay.values.end()) continue;
     for (std::size_t k = 0; k < x->second.size(); ++k) {
-      if (measured || std::find(firsts.begin(), firsts.end(), k) != firsts.end())
-        chart.lines.push_back({.colour = overlay_colour(i)});
+      const bool begins = std::find(overlay.firsts.begin(), overlay.firsts.end(), k) != overlay.firsts.end();
+      if (overlay.measured || begins) chart.lines.push_back({.colour = overlay_colour(i)});
       const Vec2 at(x->second[k], y->second[k]);
-      std::vector<Vec2>& points = chart.lines.back().points;
-      points.push_back(at);
-      if (measured) points.push_back(at);  // a line of no length, which its round ends make a dot
+      ChartLine& line = chart.lines.back();
+      line.points.push_back(at);
+      if (overlay.measured) line.points.push_back(at);  // a line of no length, which its round ends make a dot
+      if (!overlay.measured && !begins) line.steps.push_back(cubic_step(overlay, k, across, "lambda"));
     }
   }
 }
 
-// Load over one monitor; without monitors over the arc length.
+// The derivatives at the ends of a step along which a quantity that changes by `chord` is known to be monotone: Fritsch
+// and Carlson (1980). One of the other sense is that behind a kink; the parabola of the other one takes its place.
+void keep_monotone(double chord, double& begin, double& end) {
+  const double first = begin, last = end;
+  if (first * chord < 0.0) begin = 2.0 * chord - last;
+  if (last * chord < 0.0) end = 2.0 * chord - first;
+  const double least = std::min(0.0, 3.0 * chord), most = std::max(0.0, 3.0 * chord);
+  begin = std::clamp(begin, least, most);
+  end = std::clamp(end, least, most);
+}
+
+// λ is monotone between points, and so are monitors whose turning points are known.
+void keep_monotone(const ReportContent& content, const std::string& across, ChartLine& line) {
+  const auto& known = content.turning_known;
+  const bool is_known = std::find(known.begin(), known.end(), across) != known.end();
+  for (std::size_t i = 0; i < line.steps.size(); ++i) {
+    if (!line.steps[i]) continue;
+    const Vec2 chord = line.points[i + 1] - line.points[i];
+    CubicStep& step = *line.steps[i];
+    if (is_known) keep_monotone(chord.x(), step.begin.x(), step.end.x());
+    keep_monotone(chord.y(), step.begin.y(), step.end.y());
+  }
+}
+
+// The same with its axes exchanged.
+void exchange_axes(Chart& chart) {
+  const auto exchange = [](Vec2& one) { std::swap(one.x(), one.y()); };
+  std::swap(chart.across, chart.up);
+  for (ChartLine& line : chart.lines) {
+    for (Vec2& point : line.points) exchange(point);
+    for (std::optional<CubicStep>& step : line.steps) {
+      if (!step) continue;
+      exchange(step->begin);
+      exchange(step->end);
+    }
+  }
+  for (ChartMark& mark : chart.marks) exchange(mark.at);
+}
+
+// Load over one monitor; without monitors over the arc length. Of a movement λ is the way, which is drawn across.
 Chart chart(const Record& record, const ReportContent& content, std::optional<std::size_t> monitor) {
   const auto across = [&](const RecordPoint& point) { return monitor ? point.monitors[*monitor] : point.arc; };
   const std::string axis = monitor ? shown_title(record.columns[*monitor]) : "arc length";
@@ -167,8 +209,11 @@ Chart chart(const Record& record, const ReportContent& content, std::optional<st
     ChartLine& added = result.lines.emplace_back();
     added.colour = branch_colour(line.branch);
     added.stability = line.stability;
-    for (std::size_t i = line.first; i <= line.last; ++i)
+    for (std::size_t i = line.first; i <= line.last; ++i) {
       added.points.emplace_back(across(record.points[i]), record.points[i].lambda);
+      if (i > line.first) added.steps.push_back(cubic_step(record, i, monitor));
+    }
+    keep_monotone(content, monitor ? record.columns[*monitor].name : "", added);
   }
   if (monitor) add_overlays(content, record.columns[*monitor].name, result);
   if (monitor)
@@ -184,6 +229,10 @@ Chart chart(const Record& record, const ReportContent& content, std::optional<st
                             .kind = event.kind,
                             .text = event_text(record, event, zero),
                             .point = point});
+  }
+  if (monitor && is_movement(content.loads)) {
+    exchange_axes(result);
+    result.name = axis + " over " + result.across;
   }
   return result;
 }
@@ -205,7 +254,7 @@ std::string monitor_choices(const Record& record) {
   return text;
 }
 
-std::string legend(const Record& record, const std::vector<Overlay>& overlays) {
+std::string legend_of_lines(const Record& record, const std::vector<Overlay>& overlays) {
   std::string text = "<ul class=\"legend\">";
   std::set<Stability> met;
   for (const PathLine& line : path_lines(record)) met.insert(line.stability);
@@ -222,7 +271,11 @@ std::string legend(const Record& record, const std::vector<Overlay>& overlays) {
     text += fmt::format("<li>{}{}{}</li>", svg_line(overlay_colour(i), Stability::stable),
                         overlays[i].measured ? "measured: " : "", escaped(shown_name(overlays[i].name)));
   if (!jumps(record).empty()) text += fmt::format("<li>{}jump at constant λ</li>", svg_arrow(jump_colour));
-  text += "</ul><ul class=\"legend\">";
+  return text + "</ul>";
+}
+
+std::string legend(const Record& record, const std::vector<Overlay>& overlays) {
+  std::string text = legend_of_lines(record, overlays) + "<ul class=\"legend\">";
   std::set<EventKind> kinds;
   for (const RecordEvent& event : record.events) kinds.insert(event.kind);
   for (const EventKind kind : kinds)
@@ -232,11 +285,21 @@ std::string legend(const Record& record, const std::vector<Overlay>& overlays) {
 
 // --- deformed shapes ------------------------------------------------------------------------------------------------
 
+bool concerns_all(const ShapePictures& shapes, const DrawnWall& wall) {
+  const auto is_concerned = [&](const DrawnMember& member) {
+    return std::find(wall.members.begin(), wall.members.end(), member.name) != wall.members.end();
+  };
+  return wall.members.empty() || std::all_of(shapes.members.begin(), shapes.members.end(), is_concerned);
+}
+
+// A body hides the half of its surface's line that lies in it, and of the lines of others all that does.
 std::string walls(const ShapePictures& shapes) {
   std::string text = "<g id=\"walls\">";
+  const auto light = [&](std::size_t i) { return concerns_all(shapes, shapes.walls[i]) ? "" : "light "; };
   for (std::size_t i = 0; i < shapes.surfaces.size(); ++i)
-    text += fmt::format("<path class=\"body\" d=\"{}\"/><path class=\"surface\" d=\"{}\"/>", shapes.bodies[i],
-                        shapes.surfaces[i]);
+    text += fmt::format("<path class=\"{}surface\" d=\"{}\"/>", light(i), shapes.surfaces[i]);
+  for (std::size_t i = 0; i < shapes.bodies.size(); ++i)
+    text += fmt::format("<path class=\"{}body\" d=\"{}\"/>", light(i), shapes.bodies[i]);
   return text + "</g>";
 }
 
@@ -292,18 +355,33 @@ const ShapePicture* picture_at(const ShapePictures& shapes, std::size_t point) {
   return found != shapes.pictures.end() && found->point == point ? &*found : nullptr;
 }
 
-std::string strip(const Record& record, const ShapePictures& shapes) {
+std::string strip_figure(const ShapePictures& shapes, const ShapePicture& picture, const std::string& place,
+                         const std::string& label, const std::string& caption) {
+  return fmt::format(
+      "<figure {}><svg class=\"shape\" viewBox=\"{}\" role=\"img\" aria-label=\"Shape {}\">"
+      "<use href=\"#walls\"/>{}</svg><figcaption>{}</figcaption></figure>",
+      place, view_box(shapes), label, shape_paths(shapes, picture), caption);
+}
+
+// Each event is followed by the states after its jumps.
+std::string strip(const Record& record, const ShapePictures& shapes, const std::vector<const RecordEvent*>& events) {
   const std::vector<std::size_t> first = first_points(record);
+  const std::vector<Jump> all = jumps(record);
   std::string text;
-  for (const RecordEvent* event : events_of_strip(record)) {
+  for (const RecordEvent* event : events) {
     const std::size_t point = point_of(*event, first);
     const ShapePicture* picture = picture_at(shapes, point);
     if (picture == nullptr) continue;
-    text += fmt::format(
-        "<figure data-point=\"{}\"><svg class=\"shape\" viewBox=\"{}\" role=\"img\" aria-label=\"Shape at event {}\">"
-        "<use href=\"#walls\"/>{}</svg><figcaption>{}<b>{} {}</b><span>λ = {}</span></figcaption></figure>",
-        point, view_box(shapes), event->id, shape_paths(shapes, *picture), svg_mark(event->kind), event->id,
-        words(event->kind), shown_lambda(*event, 6));
+    text +=
+        strip_figure(shapes, *picture, fmt::format("data-point=\"{}\"", point), fmt::format("at event {}", event->id),
+                     fmt::format("{}<b>{} {}</b><span>λ = {}</span>", svg_mark(event->kind), event->id,
+                                 words(event->kind), shown_lambda(*event, 6)));
+    for (std::size_t i = 0; i < std::min(all.size(), shapes.after_jumps.size()); ++i)
+      if (all[i].event == event && !all[i].returns)
+        text += strip_figure(
+            shapes, shapes.after_jumps[i], fmt::format("data-jump=\"{}\"", i),
+            fmt::format("after the jump from event {}", event->id),
+            fmt::format("{}<b>after the jump</b><span>from event {}</span>", svg_arrow(jump_colour), event->id));
   }
   return text;
 }
@@ -313,18 +391,26 @@ std::string strip(const Record& record, const ShapePictures& shapes) {
 std::string cell(const std::string& text) { return "<td>" + escaped(text) + "</td>"; }
 std::string figure_cell(const std::string& text) { return "<td class=\"figure\">" + escaped(text) + "</td>"; }
 
-std::string event_rows(const Record& record) {
+std::vector<const RecordEvent*> all_events(const Record& record) {
+  std::vector<const RecordEvent*> events;
+  for (const RecordEvent& event : record.events) events.push_back(&event);
+  return events;
+}
+
+// `columns`: how many monitors are there.
+std::string event_rows(const Record& record, const std::vector<const RecordEvent*>& events, std::size_t columns) {
   const std::vector<std::size_t> first = first_points(record);
   const std::vector<double> zero = roundoff(record);
   std::string text;
-  for (const RecordEvent& event : record.events) {
+  for (const RecordEvent* const one : events) {
+    const RecordEvent& event = *one;
     text += fmt::format("<tr data-point=\"{}\">", point_of(event, first)) + figure_cell(std::to_string(event.id));
     for (const Index beside : {event.branch, event.step})
       text += fmt::format("<td class=\"beside figure\">{}</td>", beside);
     text += figure_cell(shown_lambda(event, 10));
     text += fmt::format("<td class=\"kind\">{}{}</td>", svg_mark(event.kind), words(event.kind));
     text += "<td class=\"what\">" + escaped(plain(event_detail(event), 400)) + "</td>";
-    for (std::size_t i = 0; i < zero.size(); ++i)
+    for (std::size_t i = 0; i < columns; ++i)
       text += fmt::format("<td class=\"beside figure\">{}</td>",
                           shown_number(without_roundoff(event.monitors[i], zero[i]), 6));
     text += cell(unstable_change(event)) + "</tr>\n";
@@ -332,12 +418,12 @@ std::string event_rows(const Record& record) {
   return text;
 }
 
-std::string event_titles(const Record& record) {
+std::string event_titles(const Record& record, std::size_t columns) {
   std::string text = "<tr>";
   text += "<th class=\"figure\">id</th><th class=\"beside figure\">branch</th><th class=\"beside figure\">step</th>";
   text += "<th class=\"figure\">λ</th><th>kind</th><th>what</th>";
-  for (const RecordColumn& column : record.columns)
-    text += fmt::format("<th class=\"beside figure\">{}</th>", escaped(shown_title(column)));
+  for (std::size_t i = 0; i < columns; ++i)
+    text += fmt::format("<th class=\"beside figure\">{}</th>", escaped(shown_title(record.columns[i])));
   return text + "<th title=\"number of negative eigenvalues; ?: undecided\">unstable</th></tr>";
 }
 
@@ -349,8 +435,11 @@ std::string event_note(const Record& record) {
 }
 
 // A section with one table; empty without rows.
-std::string table_section(std::string_view id, std::string_view title, std::string_view note,
-                          const std::vector<TableColumn>& columns, const std::vector<std::vector<std::string>>& rows) {
+// `of_row`: attributes of a row.
+std::string table_section(
+    std::string_view id, std::string_view title, std::string_view note, const std::vector<TableColumn>& columns,
+    const std::vector<std::vector<std::string>>& rows,
+    const std::function<std::string(std::size_t)>& of_row = [](std::size_t) { return ""; }) {
   if (rows.empty()) return "";
   const auto is_figure = [&](std::size_t i) { return columns[i].side == TableColumn::Side::right; };
   std::string text = fmt::format(
@@ -360,8 +449,9 @@ std::string table_section(std::string_view id, std::string_view title, std::stri
   for (std::size_t i = 0; i < columns.size(); ++i)
     text += fmt::format("<th{}>{}</th>", is_figure(i) ? " class=\"figure\"" : "", escaped(columns[i].title));
   text += "</tr></thead><tbody>\n";
-  for (const std::vector<std::string>& row : rows) {
-    text += "<tr>";
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const std::vector<std::string>& row = rows[r];
+    text += "<tr" + of_row(r) + ">";
     for (std::size_t i = 0; i < row.size(); ++i) text += is_figure(i) ? figure_cell(row[i]) : cell(plain(row[i], 400));
     text += "</tr>\n";
   }
@@ -376,10 +466,17 @@ std::string sensitivities(const Record& record) {
 }
 
 std::string jump_table(const Record& record) {
+  const std::vector<const RecordJump*> of_rows = jumps_of_rows(record);
+  const std::vector<Jump> all = jumps(record);
+  const auto number = [&](std::size_t row) -> std::string {
+    const auto is_same = [&](const Jump& jump) { return jump.end == of_rows[row]; };
+    const auto found = std::find_if(all.begin(), all.end(), is_same);
+    return found == all.end() ? "" : fmt::format(" data-jump=\"{}\"", found - all.begin());
+  };
   return table_section("jumps", "Jumps at constant λ",
                        "Where the path loses stability, the structure jumps. Each row gives destination, energy "
                        "released, return load and energy dissipated. An empty cell: no return jump is known.",
-                       jump_columns(record), jump_rows(record));
+                       jump_columns(record), jump_rows(record), number);
 }
 
 // The branches that leave a branch, and those that leave them in turn.
@@ -415,13 +512,84 @@ std::string facts(const ReportContent& content) {
 
 }  // namespace
 
+namespace {
+
+std::optional<std::size_t> first_force(const Model& model) {
+  using enum deck::Component;
+  const auto is_force = [](const MonitorColumn& column) {
+    const deck::Component of = column.component;
+    return of == reaction_x || of == reaction_z || of == reaction_moment || of == force_x || of == force_z ||
+           of == axial_force;
+  };
+  const auto& all = model.monitors();
+  const auto found = std::find_if(all.begin(), all.end(), is_force);
+  return found == all.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - all.begin()));
+}
+
+}  // namespace
+
+namespace {
+
+// `column: euler-bernoulli, 40 elements, E = 21000 kN/cm², A = 0.02 cm², I = 2e-05 cm⁴`
+std::string member_text(const deck::Deck& deck, const deck::Member& member) {
+  const auto quantity = [&](const char* name, double value, const deck::Dimension& unit) {
+    return fmt::format(", {} = {}", name, with_unit(shown_number(value, 6), unit_text(unit, deck.units)));
+  };
+  std::string text = fmt::format("{}: {}, {}", member.name, deck::text_of(deck::theory_words, member.theory),
+                                 counted(static_cast<std::size_t>(member.elements), "element", "elements"));
+  if (const deck::Material* const material = find(deck.materials, member.material))
+    text += quantity("E", material->E, deck::unit::stress);
+  if (const deck::Section* const section = find(deck.sections, member.section)) {
+    const deck::SectionProperties of = properties(*section);
+    text += quantity("A", of.A, deck::unit::area);
+    if (member.theory != Theory::truss) text += quantity("I", of.I, deck::unit::second_moment);
+    if (of.height) text += quantity("h", *of.height, deck::unit::length);
+  }
+  return text;
+}
+
+template <class List, class Text>
+std::string joined(const List& list, Text text) {
+  constexpr std::size_t most = 4;
+  std::string all;
+  for (std::size_t i = 0; i < std::min(list.size(), most); ++i) all += (i == 0 ? "" : "; ") + text(list[i]);
+  return all + (list.size() > most ? fmt::format("; and {} more", list.size() - most) : "");
+}
+
+std::vector<std::pair<std::string, std::string>> key_numbers_of(const Model& model) {
+  const deck::Deck& deck = model.whole_deck();
+  std::vector<std::pair<std::string, std::string>> numbers;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    if (!value.empty()) numbers.emplace_back(name, value);
+  };
+  add("λ multiplies", joined(driven_by_lambda(deck), [](const LoadText& load) { return load.text; }));
+  add("members", joined(deck.members, [&](const deck::Member& member) { return member_text(deck, member); }));
+  add("walls", joined(deck.walls, [](const deck::Wall& wall) { return wall.name; }));
+  add("springs", joined(deck.springs, [&](const deck::Spring& spring) { return spring_text(spring, deck.units); }));
+  add("mesh", fmt::format("{}, {}", counted(static_cast<std::size_t>(model.structure().node_count()), "node", "nodes"),
+                          counted(static_cast<std::size_t>(model.structure().size({})), "unknown", "unknowns")));
+  for (const std::string& assignment : deck.source.assignments) add("--set", assignment);
+  return numbers;
+}
+
+std::vector<std::string> turning_known(const Model& model) {
+  std::vector<std::string> names;
+  for (const Watch& watch : model.watched()) names.push_back(watch.label);
+  return names;
+}
+
+}  // namespace
+
 ReportContent report_content(const Model& model, const Record& record, const DrawnScenes& drawn) {
   ReportContent content{.description = model.deck().description,
                         .warning = warning_of_start(model, record),
                         .loads = driven_by_lambda(model.whole_deck()),
+                        .force = first_force(model),
+                        .turning_known = turning_known(model),
                         .deck_text = deck::to_toml(model.whole_deck()),
                         .shapes = draw(drawn, setting_of(model)),
-                        .branch_map = branch_map_section(record, branch_map_of(model, record))};
+                        .branch_map = branch_map_section(record, branch_map_of(model, record)),
+                        .key_numbers = key_numbers_of(model)};
   const auto add = [&](const std::string& name, const std::string& value) { content.facts.emplace_back(name, value); };
   add("deck", record.deck);
   for (const std::string& assignment : model.deck().source.assignments) add("--set", assignment);
@@ -449,6 +617,10 @@ std::string load_note(const ReportContent& content) {
 nlohmann::ordered_json data_of(const Record& record, const ReportContent& content) {
   nlohmann::ordered_json data = report_data(record, content.shapes);
   data["load_title"] = title_of_lambda(content.loads);
+  data["turning_known"] = nlohmann::ordered_json::array();
+  for (const std::string& name : content.turning_known) data["turning_known"].push_back(shown_name(name));
+  data["moved"] = is_movement(content.loads);
+  data["force"] = content.force ? nlohmann::ordered_json(*content.force) : nlohmann::ordered_json(nullptr);
   data["overlays"] = overlays_json(content.overlays);
   return data;
 }
@@ -475,9 +647,9 @@ ReportPage::ReportPage(const Record& record, const ReportContent& content, const
           {"shape_notes", shape_notes(record, content.shapes)},
           {"touching", record.has_walls ? "touching" : "without-walls"},
           {"last_shape", std::to_string(std::max<std::size_t>(content.shapes.pictures.size(), 1) - 1)},
-          {"strip", strip(record, content.shapes)},
-          {"event_titles", event_titles(record)},
-          {"event_rows", event_rows(record)},
+          {"strip", strip(record, content.shapes, events_of_strip(record))},
+          {"event_titles", event_titles(record, record.columns.size())},
+          {"event_rows", event_rows(record, all_events(record), record.columns.size())},
           {"event_note", event_note(record)},
           {"jump_table", jump_table(record)},
           {"sensitivities", sensitivities(record)},
@@ -499,6 +671,100 @@ std::string ReportPage::text() const {
   std::string text;
   for (const std::string_view piece : pieces_) text += piece;
   return text;
+}
+
+// --- one sheet -------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// The lower, the more the event matters.
+int rank(const RecordEvent& event) {
+  if (event.jump) return 0;
+  if (event.kind == EventKind::limit_point || event.kind == EventKind::contact_limit_point) return 1;
+  if (event.kind == EventKind::branch_point) return 2;
+  if (event.kind == EventKind::start || event.kind == EventKind::end) return 3;
+  return changes_contact(event.kind) ? 4 : 5;
+}
+
+// At most so many that matter, in the order of the path.
+std::vector<const RecordEvent*> events_that_matter(const Record& record, std::size_t most) {
+  std::vector<const RecordEvent*> events = all_events(record);
+  std::stable_sort(events.begin(), events.end(),
+                   [](const RecordEvent* a, const RecordEvent* b) { return rank(*a) < rank(*b); });
+  events.resize(std::min(events.size(), most));
+  std::sort(events.begin(), events.end(), [](const RecordEvent* a, const RecordEvent* b) { return a->id < b->id; });
+  return events;
+}
+
+// Those of which no more than so many shapes are drawn: an event with a jump has one more for each end.
+std::vector<const RecordEvent*> events_of_shapes(const Record& record, std::size_t most) {
+  const std::vector<Jump> all = jumps(record);
+  const auto shapes_of = [&](const RecordEvent* event) {
+    const auto is_its = [&](const Jump& jump) { return jump.event == event && !jump.returns; };
+    return 1 + static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_its));
+  };
+  for (std::size_t count = most; count > 1; --count) {
+    const std::vector<const RecordEvent*> events = events_that_matter(record, count);
+    std::size_t shapes = 0;
+    for (const RecordEvent* const event : events) shapes += shapes_of(event);
+    if (shapes <= most) return events;
+  }
+  return events_that_matter(record, 1);
+}
+
+std::optional<std::size_t> main_monitor(const Record& record, const ReportContent& content) {
+  if (record.columns.empty()) return std::nullopt;
+  return is_movement(content.loads) ? content.force.value_or(0) : 0;
+}
+
+std::string key_numbers(const ReportContent& content) {
+  std::string text;
+  for (const auto& [name, value] : content.key_numbers)
+    text += fmt::format("<dt>{}</dt><dd>{}</dd>", escaped(plain(name, 80)), escaped(plain(value, 300)));
+  return text;
+}
+
+Fields sheet_fields(const Record& record, const ReportContent& content) {
+  constexpr std::size_t most_events = 9, most_shapes = 6, most_columns = 3;
+  const std::size_t columns = std::min(record.columns.size(), most_columns);
+  const std::vector<const RecordEvent*> events = events_that_matter(record, most_events);
+  const std::string more = events.size() == record.events.size() ? ""
+                                                                 : fmt::format("<p class=\"note\">{} of {} events.</p>",
+                                                                               events.size(), record.events.size());
+  const std::string defined_walls =
+      fmt::format("<svg class=\"defined\" aria-hidden=\"true\"><defs>{}</defs></svg>", walls(content.shapes));
+  return {{"title", escaped(title(record))},
+          {"source", escaped(fmt::format("{}, trace-path {}", plain(record.deck, 200), program_version()))},
+          {"answers", list_of_answers(record)},
+          {"early", early_ends(record, content.warning)},
+          {"curve", svg_chart(chart(record, content, main_monitor(record, content)))},
+          {"legend", legend_of_lines(record, content.overlays)},
+          {"key_numbers", key_numbers(content)},
+          {"strip", defined_walls + strip(record, content.shapes, events_of_shapes(record, most_shapes))},
+          {"event_titles", event_titles(record, columns)},
+          {"event_rows", event_rows(record, events, columns)},
+          {"event_note", more + event_note(record)},
+          {"jump_table", jump_table(record)}};
+}
+
+std::string printed(std::string_view page, const Record& record, const ReportContent& content) {
+  const ReportParts& parts = report_parts();
+  const Fields fields = sheet_fields(record, content);
+  std::string text;
+  for (const std::string_view piece :
+       filled(page, {{"style", parts.style}, {"sheet_style", parts.sheet_style}}, fields))
+    text += piece;
+  return text;
+}
+
+}  // namespace
+
+std::string sheet_html(const Record& record, const ReportContent& content) {
+  return printed(report_parts().sheet, record, content);
+}
+
+std::string picture_html(const Record& record, const ReportContent& content) {
+  return printed(report_parts().picture, record, content);
 }
 
 std::string curve_html(const Record& record, const std::vector<LoadText>& loads, std::optional<std::size_t> monitor) {

@@ -22,11 +22,14 @@ struct ReportContent {
   std::string description{};                                 ///< the deck's
   std::string warning{};                                     ///< of the start; may be empty
   std::vector<LoadText> loads{};                             ///< those that λ multiplies
+  std::optional<std::size_t> force{};                        ///< first monitor that is a force or a moment
+  std::vector<std::string> turning_known{};                  ///< monitors whose turning points are points of the path
   std::string deck_text{};                                   ///< with every default written out
   std::vector<std::pair<std::string, std::string>> facts{};  ///< name and value: counts, versions
   ShapePictures shapes{};
   std::vector<Overlay> overlays{};
-  std::string branch_map{};  ///< section of the page; may be empty
+  std::string branch_map{};                                        ///< section of the page; may be empty
+  std::vector<std::pair<std::string, std::string>> key_numbers{};  ///< of the deck: name and value
 };
 
 ReportContent report_content(const Model& model, const Record& record, const DrawnScenes& drawn);
@@ -48,6 +51,12 @@ class ReportPage {
   std::map<std::string, std::string, std::less<>> fields_;
   Pieces pieces_;
 };
+
+/// One printed sheet A4: answers, curve, shapes, key numbers and tables; it has no scripts.
+std::string sheet_html(const Record& record, const ReportContent& content);
+
+/// The curve with its title, for a picture; it has no scripts.
+std::string picture_html(const Record& record, const ReportContent& content);
 
 /// The report's curve alone, with its legend, as an element that can stand in any page: λ, which multiplies these
 /// loads, over a monitor, or over the arc length.

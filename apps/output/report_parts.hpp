@@ -11,6 +11,9 @@ struct ReportParts {
   std::string_view script{};   ///< JavaScript: show_report()
   std::string_view library{};  ///< plotly with its licence; empty if the program was built without
 
+  std::string_view sheet{}, picture{};  ///< as `page`, of a printed sheet and of the curve alone
+  std::string_view sheet_style{};       ///< theirs, on top of `style`
+
   std::string_view explorer_page{}, explorer_style{}, explorer_script{};
 };
 

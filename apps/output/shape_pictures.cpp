@@ -7,8 +7,10 @@
 #include <set>
 #include <utility>
 
+#include "apps/output/jump_rows.hpp"
 #include "apps/output/path_lines.hpp"
 #include "apps/output/picture_signs.hpp"
+#include "apps/output/wall_pictures.hpp"
 
 namespace arcwall {
 
@@ -18,7 +20,6 @@ constexpr double longer_side = longer_side_of_pictures;
 constexpr double margin = 0.08;  // of the longer side
 // Parts of the longer side. What is drawn outwards from the structure stays in the margin.
 constexpr double longest_force = 0.14, longest_load = 0.07;
-constexpr double wall_band = 0.025;
 constexpr double thinnest_band = 0.006;
 // Deflections between these can be drawn larger: twice at least, and what is below is round-off.
 constexpr double greatest_enlarged = 0.25, least_enlarged = 1e-8;
@@ -187,26 +188,18 @@ double unit_of_moves(double greatest) {
 
 std::vector<std::string> classes_of(const Scene& scene) {
   std::vector<std::string> classes(scene.shape.members.size(), "member");
-  classes.insert(classes.end(), {"moving", "springs", "supports", "loads", "forces", "touches"});
+  classes.insert(classes.end(), {"moving-surface", "moving", "springs", "supports", "loads", "forces", "touches"});
   return classes;
 }
 
-// From one of the first places of an outline into what is to the right of it; z points down in pictures.
-Vec2 behind_outline(const std::vector<Vec2>& places, std::size_t i, std::size_t count) {
-  const Vec2 along = places[std::min(i + 1, count - 1)] - places[i > 0 ? i - 1 : 0];
-  const double length = along.norm();
-  return length > 0.0 ? Vec2(wall_band * longer_side / length * perp(along)) : Vec2(Vec2::Zero());
-}
-
-// A wall's surface, and back behind it.
-std::vector<Vec2> wall_band_of(const Frame& frame, const WallShape& wall) {
-  std::vector<Vec2> places;
-  for (const Vec2& point : wall.line) places.push_back(frame.place(point));
-  const Vec2 behind{0.0, (wall.side == Side::above ? -1.0 : 1.0) * wall_band * longer_side};
-  const std::size_t count = places.size();
-  for (std::size_t i = count; i-- > 0;)
-    places.emplace_back(places[i] + (wall.is_outline ? behind_outline(places, i, count) : behind));
-  return places;
+std::vector<WallPicture> drawn_walls(const Frame& frame, const std::vector<WallShape>& walls) {
+  std::vector<PlacedWall> placed;
+  for (const WallShape& wall : walls) {
+    PlacedWall& added = placed.emplace_back(PlacedWall{.closed = wall.closed});
+    for (const Vec2& point : wall.whole) added.line.push_back(frame.place(point));
+    if (wall.behind) added.behind = frame.way(*wall.behind).normalized();
+  }
+  return wall_pictures(placed, frame.size());
 }
 
 // Where a section force has its maximum and its minimum.
@@ -244,8 +237,11 @@ std::vector<std::vector<ForceSample>> sampled_forces(const Shape& shape, std::si
 
 // The paths in the order of classes_of().
 ShapePicture picture_of(const Frame& frame, const Greatest& greatest, std::size_t point, const Scene& scene) {
-  std::string moving, springs, supports, loads, forces, touches;
-  for (const WallShape& wall : scene.walls) moving += path_data(wall_band_of(frame, wall));
+  std::string surfaces, bodies, springs, supports, loads, forces, touches;
+  for (const WallPicture& wall : drawn_walls(frame, scene.walls)) {
+    surfaces += wall.surface;
+    bodies += wall.body;
+  }
   for (const DrawnSpring& spring : scene.springs) {
     const auto to = spring.to ? std::optional(frame.place(*spring.to)) : std::nullopt;
     springs += spring_data(frame.place(spring.at), to, spring);
@@ -262,14 +258,8 @@ ShapePicture picture_of(const Frame& frame, const Greatest& greatest, std::size_
   }
   ShapePicture picture{.point = point, .contacts = scene.shape.contacts};
   for (const MemberShape& member : scene.shape.members) picture.paths.push_back(member_data(frame, member));
-  picture.paths.insert(picture.paths.end(), {moving, springs, supports, loads, forces, touches});
+  picture.paths.insert(picture.paths.end(), {surfaces, bodies, springs, supports, loads, forces, touches});
   return picture;
-}
-
-void draw_wall(const Frame& frame, const WallShape& wall, ShapePictures& to) {
-  const std::vector<Vec2> band = wall_band_of(frame, wall);
-  to.surfaces.push_back(path_data({band.begin(), band.begin() + static_cast<std::ptrdiff_t>(band.size() / 2)}));
-  to.bodies.push_back(path_data(band) + (band.empty() ? "" : "z"));
 }
 
 // --- what acts from outside -----------------------------------------------------------------------------------------
@@ -457,16 +447,17 @@ const Shape* DrawnScenes::shape_at(std::size_t point) const {
 DrawnScenes scenes_to_draw(const Model& model, const Record& record) {
   constexpr std::size_t most_coordinates = 400'000;  // about 4 MB
   if (record.points.empty()) return {};
-  const auto scene_at = [&](const RecordPoint& point) {
-    const Index stage = record.stage_number(point.branch);
-    return scene_of(model.at_stage(stage), point.state);
+  const auto scene_in = [&](Index branch, const State& state) {
+    return scene_of(model.at_stage(record.stage_number(branch)), state);
   };
+  const auto scene_at = [&](const RecordPoint& point) { return scene_in(point.branch, point.state); };
   Scene first = scene_at(record.points.front());
   std::size_t per_shape = 1;
   for (const MemberShape& member : first.shape.members) per_shape += member.points.size();
   DrawnScenes drawn{.points = points_to_draw(record, std::max<std::size_t>(most_coordinates / per_shape, 2))};
   for (const std::size_t point : drawn.points)
     drawn.scenes.push_back(point == 0 ? std::move(first) : scene_at(record.points[point]));
+  for (const Jump& jump : jumps(record)) drawn.scenes.push_back(scene_in(jump.event->branch, jump.end->state));
   return drawn;
 }
 
@@ -493,19 +484,24 @@ ShapePictures draw(const DrawnScenes& drawn, const Setting& setting) {
   result.move_unit = unit_of_moves(result.greatest_move);
   result.thickness.resize(result.classes.size(), 0.0);
   for (std::size_t m = 0; m < setting.heights.size(); ++m) result.thickness[m] = frame.thickness(setting.heights[m]);
-  for (const WallShape& wall : setting.walls) draw_wall(frame, wall, result);
+  for (const WallPicture& wall : drawn_walls(frame, setting.walls)) {
+    result.surfaces.push_back(wall.surface);
+    result.bodies.push_back(wall.body);
+  }
   constexpr std::size_t finest = 41, coarsest = 9, most_samples = 80'000;  // about 3 MB
   const std::size_t lines = std::max<std::size_t>(scenes.size() * scenes.front().shape.members.size(), 1);
   const std::size_t samples = std::min(finest, most_samples / lines);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    ShapePicture& added = result.pictures.emplace_back(picture_of(frame, greatest, points[i], scenes[i]));
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const bool is_of_the_path = i < points.size();
+    std::vector<ShapePicture>& list = is_of_the_path ? result.pictures : result.after_jumps;
+    ShapePicture& added = list.emplace_back(picture_of(frame, greatest, is_of_the_path ? points[i] : 0, scenes[i]));
     if (samples >= coarsest) added.forces = sampled_forces(scenes[i].shape, samples);
     if (result.move_unit > 0.0)
       for (const MemberShape& member : scenes[i].shape.members)
         added.moves.push_back(moves_data(frame, member, result.move_unit));
   }
   result.members = setting.members;
-  for (const WallShape& wall : setting.walls) result.walls.push_back(wall.name);
+  for (const WallShape& wall : setting.walls) result.walls.push_back({.name = wall.name, .members = wall.members});
   return result;
 }
 

@@ -44,7 +44,7 @@ Scene scene_of(const Model& model, const State& state);
 /// What is drawn of a run.
 struct DrawnScenes {
   std::vector<std::size_t> points{};  ///< of the record, ascending
-  std::vector<Scene> scenes{};        ///< at them
+  std::vector<Scene> scenes{};        ///< at them, and then those after the jumps of the record in the order of jumps()
 
   /// The shape at a point; null if it is not drawn.
   const Shape* shape_at(std::size_t point) const;
@@ -59,6 +59,12 @@ struct DrawnMember {
   std::string from{}, to{};           ///< points of the deck
   double A = 0.0, I = 0.0, EI = 0.0;  ///< EI and I of bars are 0
   double half_height = 0.0;           ///< 0 if unknown [length]
+};
+
+/// What a wall is called, and which members it concerns.
+struct DrawnWall {
+  std::string name{};
+  std::vector<std::string> members{};  ///< empty: all
 };
 
 /// What is the same in all scenes.
@@ -93,14 +99,15 @@ struct ShapePictures {
   double greatest_force = 0.0;          ///< of a wall: that of the longest arrow [force]
   double greatest_move = 0.0;           ///< of a point of a member, from rest
   double move_unit = 0.0;               ///< of `moves`; 0: there are none, as deflections fill the picture as they are
-  std::vector<std::string> surfaces{};  ///< of the walls: an open path each
-  std::vector<std::string> bodies{};    ///< bands behind the surfaces: a closed path each
+  std::vector<std::string> surfaces{};  ///< of the walls: an open path each, under the bodies
+  std::vector<std::string> bodies{};    ///< what is solid of them: a closed path each
   std::vector<double> thickness{};      ///< of the paths; 0: a mere line
-  std::vector<std::string> classes{};   ///< of a picture's paths: `member` for each, `moving`, `springs`, `supports`,
-                                        ///< `loads`, `forces`, `touches`
+  std::vector<std::string> classes{};   ///< of a picture's paths: `member` for each, `moving-surface`, `moving`,
+                                        ///< `springs`, `supports`, `loads`, `forces`, `touches`
   std::vector<ShapePicture> pictures{};
+  std::vector<ShapePicture> after_jumps{};  ///< `point` is not used
   std::vector<DrawnMember> members{};
-  std::vector<std::string> walls{};  ///< names, of those whose surfaces are there
+  std::vector<DrawnWall> walls{};  ///< whose surfaces are there
 };
 
 /// Points of a record that get a picture: all if they are at most `most`, else every n-th of a branch with its ends,

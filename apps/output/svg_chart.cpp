@@ -85,11 +85,19 @@ std::string grid(const Scales& scales) {
   return fmt::format("<path class=\"grid\" d=\"{}\"/>{}", lines, labels);
 }
 
+// A step to `to` as a cubic of Bézier.
+std::string cubic_data(const Vec2& from, const CubicStep& step, const Vec2& to, const Scales& scales) {
+  const Vec2 first = scales.place(from + step.begin / 3.0), second = scales.place(to - step.end / 3.0);
+  return fmt::format("C{:.1f} {:.1f} {:.1f} {:.1f} ", first.x(), first.y(), second.x(), second.y());
+}
+
 // Steps that cannot be seen are left out.
-std::string path_data(const std::vector<Vec2>& points, const Scales& scales) {
+std::string line_data(const ChartLine& line, const Scales& scales) {
   constexpr double least_step = 0.3;
+  const std::vector<Vec2>& points = line.points;
   std::string data;
   bool goes_on = false;
+  std::size_t drawn = 0;  // the last point
   Vec2 last = Vec2::Zero();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) {
@@ -99,8 +107,11 @@ std::string path_data(const std::vector<Vec2>& points, const Scales& scales) {
     const Vec2 place = scales.place(points[i]);
     const bool at_end = i + 1 == points.size();
     if (goes_on && !at_end && (place - last).norm() < least_step) continue;
-    data += fmt::format("{}{:.1f} {:.1f}", goes_on ? "L" : "M", place.x(), place.y());
+    const bool is_cubic = goes_on && drawn + 1 == i && drawn < line.steps.size() && line.steps[drawn];
+    data += is_cubic ? cubic_data(points[drawn], *line.steps[drawn], points[i], scales) : goes_on ? "L" : "M";
+    data += fmt::format("{:.1f} {:.1f}", place.x(), place.y());
     last = place;
+    drawn = i;
     goes_on = true;
   }
   return data;
@@ -160,7 +171,7 @@ std::string svg_chart(const Chart& chart) {
   for (const ChartLine& line : chart.lines)
     lines += fmt::format(
         "<path class=\"line\" stroke=\"{}\"{} d=\"{}\"/>", line.colour, dashes(line.stability),
-        path_data(line.points, scales) +
+        line_data(line, scales) +
             (line.is_arrow ? head_of_arrow(scales.place(line.points.front()), scales.place(line.points.back())) : ""));
   return fmt::format(
       "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" data-across=\"{}\" data-up=\"{}\">{}"

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/output/path_cubics.hpp"
 #include "continuation/path_point.hpp"
 #include "core/types.hpp"
 
@@ -12,6 +14,7 @@ namespace arcwall {
 /// A curve of a chart. Points that are not finite interrupt it.
 struct ChartLine {
   std::vector<Vec2> points{};
+  std::vector<std::optional<CubicStep>> steps{};  ///< one fewer than points, or none: the line is straight without
   std::string colour{};
   Stability stability = Stability::stable;  ///< drawn through, dashed or dotted
   bool is_arrow = false;                    ///< from the first point to the last

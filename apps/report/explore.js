@@ -277,12 +277,10 @@ const settings = () => numbers_of === text ? differences(numbers).map(({ key, va
 
 const pin_curve = () => {
   if (last === null) return;
-  const { points, columns } = last.data;
-  const values = Object.fromEntries(['lambda', 'arc', 'energy', 'contacts', 'unstable', 'step'].map((key) => [key, points[key]]));
-  columns.forEach(({ name }, i) => { values[name] = points.monitors[i]; });
+  const { points } = last.data;
   const firsts = points.branch.flatMap((branch, i) => i === 0 || branch !== points.branch[i - 1] ? [i] : []);
   const name = settings().join(', ') || (text === deck.text ? 'as read' : 'edited text');
-  pins.push({ name: `pin ${++pinned}: ${name}`, measured: false, colour: pin_colours[(pinned - 1) % pin_colours.length], firsts, values });
+  pins.push({ name: `pin ${++pinned}: ${name}`, measured: false, colour: pin_colours[(pinned - 1) % pin_colours.length], firsts, ...report.curve });
   list_pins();
 };
 const list_pins = () => {

@@ -70,10 +70,11 @@ const load_label = (picture) => {
   return label;
 };
 
-// The frames: all shapes, or some that are spread evenly; the last one stays for a second.
+// The frames: all of the film, or some that are spread evenly and the jumps; the last one stays for a second.
 const frames_of_the_path = () => {
-  const most = 120, count = Math.min(shapes.length, most);
-  return Array.from({ length: count }, (_, i) => Math.round(i * (shapes.length - 1) / Math.max(count - 1, 1)));
+  const most = 120, count = Math.min(film.length, most);
+  const chosen = new Set(Array.from({ length: count }, (_, i) => Math.round(i * (film.length - 1) / Math.max(count - 1, 1))));
+  return film.filter((scene, i) => scene.jump !== undefined || chosen.has(i));
 };
 
 const save_animation = async (stage) => {
@@ -86,14 +87,14 @@ const save_animation = async (stage) => {
     const [, , width, height] = stage.getAttribute('viewBox').split(' ').map(Number);
     const scale = longer / Math.max(width, height);
     [canvas.width, canvas.height] = [width, height].map((side) => Math.max(Math.round(scale * side), 1));
-    for (const index of chosen) {
-      show(index);
+    for (const scene of chosen) {
+      show_scene(scene);
       const picture = picture_alone(stage);
-      load_label(picture).textContent = `λ = ${load_factor(shapes[index].point, 5)}`;
+      load_label(picture).textContent = `λ = ${load_factor(shapes[current].point, 5)}`;
       frames.push(await picture_as_png(picture, canvas));
       button.textContent = `${Math.round(100 * frames.length / chosen.length)} %`;
     }
-    const pause = Math.round(1000 * seconds_of_play(shapes.length) / chosen.length);
+    const pause = Math.round(1000 * seconds_of_play(film.length) / chosen.length);
     const times_shown = chosen.map((_, i) => i + 1 === chosen.length ? 1000 + pause : pause);
     save(new Blob([animated_png(frames, times_shown)], { type: 'image/png' }), 'path.png');
   } finally {

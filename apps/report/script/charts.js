@@ -1,5 +1,7 @@
 // The chart: plotly's where the page carries it, else the pictures of the page.
-const plotly_chart = (picked, axes) => {
+// `kept`: the plot of the run before, which is changed instead of drawn anew.
+const plotly_chart = (picked, axes, kept) => {
+  if (kept) element('plot').replaceWith(kept);
   const plot = element('plot');
   const here_trace = () => ({ type: 'scatter', mode: 'markers', x: [], y: [], hoverinfo: 'skip',
     marker: { size: 20, symbol: 'circle-open', color: colour('force'), line: { width: 3 } } });
@@ -7,16 +9,14 @@ const plotly_chart = (picked, axes) => {
     linecolor: colour('edge'), automargin: true, exponentformat: 'power' });  // no 2p for 2·10⁻¹²
   // The area under a part of the curve; the first of the traces, so that the others stand on it.
   const area_trace = () => {
-    const [first, last] = shaded ? [Math.min(...shaded), Math.max(...shaded) + 1] : [0, 0];
-    return { type: 'scatter', mode: 'lines', hoverinfo: 'skip', fill: 'tozeroy', fillcolor: `${colour('accent')}33`, line: { width: 0 },
-      x: shown.across.values.slice(first, last), y: shown.up.values.slice(first, last) };
+    const [first, last] = shaded ? [Math.min(...shaded), Math.max(...shaded)] : [0, 0];
+    const sizes = sizes_of(shown.across.values, shown.up.values);
+    const { x, y } = shaded ? drawn_curve(path_curve, shown.across.key, shown.up.key, sizes, first, last) : { x: [], y: [] };
+    return { type: 'scatter', mode: 'lines', hoverinfo: 'skip', fill: 'tozeroy', fillcolor: `${colour('accent')}33`, line: { width: 0 }, x, y };
   };
-  let shown = axes, marked = 0, traces = 0, marks = -1, shaded = null;
+  let shown = axes, marked = 0, traces = 0, marks = -1, shaded = null, released = false;
   const sizes = () => [plot.clientWidth - 80, plot.clientHeight - 80];
-  const whole = () => [shown.across, shown.up].map(({ values }) => {
-    const finite = values.filter((value) => value !== null);
-    return [finite.reduce((a, b) => Math.min(a, b), Infinity), finite.reduce((a, b) => Math.max(a, b), -Infinity)];
-  });
+  const whole = () => [shown.across, shown.up].map(({ values }) => range_of(values));
   const say_what_is_drawn = (drawn, cut) => {
     const notes = [];
     if (cut) notes.push('The curve goes on beyond this view, which shows the events; a double click shows all of it, another one goes back.');
@@ -39,14 +39,20 @@ const plotly_chart = (picked, axes) => {
       modebar: { bgcolor: 'rgba(0,0,0,0)', color: colour('soft'), activecolor: colour('accent') },
       paper_bgcolor: colour('paper'), plot_bgcolor: colour('paper'),
       annotations: jump_arrows(shown) };
-    const config = { responsive: true, displaylogo: false, doubleClick: 'reset+autosize',
-      modeBarButtons: [['toImage', 'zoom2d', 'pan2d', 'zoomIn2d', 'zoomOut2d', 'resetScale2d']],
-      toImageButtonOptions: { filename: 'load', scale: 2 } };
-    Plotly.newPlot(plot, all, layout, config);
-    listen();
+    Plotly.react(plot, all, layout, config);
+    opened = view;
     say_what_is_drawn(drawn, view !== null);
     mark(marked);
   };
+  // From the view with which the curve opened to all of it, and from any other back to that.
+  let opened = null;
+  const is_as_opened = () => opened !== null && [plot._fullLayout.xaxis, plot._fullLayout.yaxis].every(({ range }, i) =>
+    range.every((value, k) => Math.abs(value - opened[i][k]) <= 1e-6 * Math.abs(opened[i][1] - opened[i][0])));
+  const reset = () => Plotly.relayout(plot, opened !== null && !is_as_opened()
+    ? { 'xaxis.range': [...opened[0]], 'yaxis.range': [...opened[1]] } : { 'xaxis.autorange': true, 'yaxis.autorange': true });
+  const config = { responsive: true, displaylogo: false, doubleClick: false,
+    modeBarButtons: [['toImage', 'zoom2d', 'pan2d', 'zoomIn2d', 'zoomOut2d', { name: 'reset', title: 'Reset axes', icon: Plotly.Icons.home, click: reset }]],
+    toImageButtonOptions: { filename: 'load', scale: 2 } };
   // Where the reader has enlarged the curve there is room for more marks.
   const mark_events_again = () => {
     const { xaxis, yaxis } = plot._fullLayout;
@@ -56,37 +62,51 @@ const plotly_chart = (picked, axes) => {
     Plotly.restyle(plot, { x: [x], y: [y], customdata: [customdata], hovertext: [hovertext], marker: [marker] }, [marks]);
     say_what_is_drawn(drawn, false);
   };
+  // `point`: a number, or a jump whose end is marked.
   const mark = (point) => {
     marked = point;
-    const here = { x: [shown.across.values[point]], y: [shown.up.values[point]] };
+    const [x, y] = [shown.across, shown.up].map((quantity) => typeof point === 'number' ? quantity.values[point]
+      : in_state(quantity, point.lambda, point.to));
+    const here = { x: [x ?? null], y: [y ?? null] };
     const at_once = { mode: 'immediate', transition: { duration: 0 }, frame: { duration: 0, redraw: false } };
     Plotly.animate(plot, { data: [here], traces: [traces - 1] }, at_once);
   };
+  // A plot that is kept has its listeners: they call what the run that is shown has set here.
   const listen = () => {
-    plot.on('plotly_click', (click) => {
-      const point = click.points[0]?.customdata;
-      if (Number.isInteger(point)) picked(point);
-    });
-    plot.on('plotly_relayout', (changed) => {
-      if (Object.keys(changed).some((key) => /axis\.(range|autorange)/.test(key))) mark_events_again();
-    });
+    const is_new = plot.answers === undefined;
+    plot.answers = {
+      click: (click) => {
+        const point = click.points[0]?.customdata;
+        if (Number.isInteger(point)) picked(point);
+      },
+      relayout: (changed) => {
+        if (Object.keys(changed).some((key) => /axis\.(range|autorange)/.test(key))) mark_events_again();
+      },
+      doubleclick: reset,
+    };
+    if (is_new) for (const name of Object.keys(plot.answers)) plot.on(`plotly_${name}`, (happened) => plot.answers[name](happened));
   };
   draw();
+  listen();
   window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw, { signal: closing.signal });
-  closing.signal.addEventListener('abort', () => Plotly.purge(plot));
+  closing.signal.addEventListener('abort', () => { if (!released) Plotly.purge(plot); });
+  const release = () => {
+    released = true;
+    return plot;
+  };
   const shade = (ends) => {
     shaded = ends;
     const { x, y } = area_trace();
     Plotly.restyle(plot, { x: [x], y: [y] }, [0]);
   };
-  return { choose: (across, up) => { shown = { across, up }; draw(); }, mark, shade };
+  return { choose: (across, up) => { shown = { across, up }; draw(); }, mark, shade, release };
 };
 
 const picture_chart = (picked, axes) => {
   element('plot').remove();
   element('up').remove();
   const pictured = columns.length > 0 ? quantities.slice(1, 1 + columns.length) : [first_across];
-  const figures = [...element('charts').children];
+  const figures = [...element('charts').children], exchanged = data.moved && columns.length > 0;
   const scale = (text) => {
     const [low, high, low_place, high_place] = text.split(' ').map(Number);
     return (value) => low_place + (value - low) / (high - low) * (high_place - low_place);
@@ -94,7 +114,11 @@ const picture_chart = (picked, axes) => {
   const pictures = figures.map((figure, monitor) => {
     const chart = figure.firstElementChild, here = svg('circle');
     const to_x = scale(chart.dataset.across), to_y = scale(chart.dataset.up);
-    const place = (point) => [to_x(pictured[monitor].values[point]), to_y(points.lambda[point])];
+    const value = (point) => typeof point === 'number' ? pictured[monitor].values[point] : in_state(pictured[monitor], point.lambda, point.to);
+    const place = (point) => {
+      const lambda = typeof point === 'number' ? points.lambda[point] : point.lambda;
+      return exchanged ? [to_x(lambda), to_y(value(point))] : [to_x(value(point)), to_y(lambda)];
+    };
     here.setAttribute('class', 'here');
     here.setAttribute('r', '9');
     chart.append(here);
@@ -124,5 +148,5 @@ const picture_chart = (picked, axes) => {
       }
     }
   };
-  return { choose, mark, shade: () => {} };
+  return { choose, mark, shade: () => {}, release: () => undefined };
 };

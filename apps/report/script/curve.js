@@ -22,39 +22,38 @@ const describe = (point) => {
 };
 const hover_text = (point) => describe(point).map(as_text).join('<br>');
 
-// One trace for all lines of a branch with the same stability; gaps part them.
+// One trace for all lines of a branch with the same stability; gaps part them. A last one, which is not seen, has the
+// points: what they say, and what a click selects.
 const line_traces = ({ across, up }) => {
   const traces = new Map();
   const dashes = { stable: 'solid', unstable: 'dash', undecided: 'dot' };
+  const sizes = sizes_of(across.values, up.values);
   for (const line of data.lines) {
     const key = `${line.branch} ${line.stability}`;
     if (!traces.has(key)) {
-      traces.set(key, { type: 'scatter', mode: 'lines', x: [], y: [], customdata: [], hovertext: [], hoverinfo: 'text',
-        connectgaps: false, line: { color: of_branch(line.colour), width: 2.2, dash: dashes[line.stability] } });
+      traces.set(key, { type: 'scatter', mode: 'lines', x: [], y: [], hoverinfo: 'skip', connectgaps: false,
+        line: { color: of_branch(line.colour), width: 2.2, dash: dashes[line.stability] } });
     }
-    const trace = traces.get(key);
-    for (let i = line.first; i <= line.last; ++i) {
-      trace.x.push(across.values[i]);
-      trace.y.push(up.values[i]);
-      trace.customdata.push(i);
-      trace.hovertext.push(hover_text(i));
-    }
-    trace.x.push(null);
-    trace.y.push(null);
-    trace.customdata.push(null);
-    trace.hovertext.push('');
+    const trace = traces.get(key), { x, y } = drawn_curve(path_curve, across.key, up.key, sizes, line.first, line.last);
+    trace.x.push(...x, null);
+    trace.y.push(...y, null);
   }
-  return [...traces.values()];
+  const all = points.lambda.map((_, i) => i);
+  return [...traces.values(), { type: 'scatter', mode: 'lines', x: across.values, y: up.values, customdata: all,
+    hovertext: all.map(hover_text), hoverinfo: 'text', line: { width: 0 } }];
 };
 
-// Where the structure jumps to from a loss of stability, at constant λ: over monitors alone, which jumps have.
-const jump_arrows = ({ across, up }) => {
-  const monitor = columns.findIndex(({ name }) => name === across.key);
-  if (up !== load || monitor < 0) return [];
-  return data.jumps.map((jump) => ({ x: jump.to[monitor], y: jump.lambda, ax: jump.from[monitor], ay: jump.lambda,
-    xref: 'x', yref: 'y', axref: 'x', ayref: 'y', text: '', showarrow: true, arrowhead: 2, arrowwidth: 2,
-    arrowcolor: colour('force') }));
-};
+// What a quantity is in a state of which λ and the monitors are known; undefined of others.
+const in_state = (quantity, lambda, monitors) => quantity === load ? lambda : monitors[columns.findIndex(({ name }) => name === quantity.key)];
+
+// Where the structure jumps to from a loss of stability, at constant λ.
+const jump_arrows = ({ across, up }) => data.jumps.flatMap((jump) => {
+  const [ax, ay] = [across, up].map((quantity) => in_state(quantity, jump.lambda, jump.from));
+  const [x, y] = [across, up].map((quantity) => in_state(quantity, jump.lambda, jump.to));
+  if ([ax, ay, x, y].some((value) => value === undefined || value === null)) return [];
+  return [{ x, y, ax, ay, xref: 'x', yref: 'y', axref: 'x', ayref: 'y', text: '', showarrow: true, arrowhead: 2, arrowwidth: 2,
+    arrowcolor: colour('force') }];
+});
 
 // Where the events are, if the rest of the curve would leave them a small part of the picture; else null. It goes from
 // the start to the last event of each branch that has one.
@@ -64,15 +63,7 @@ const view_of_events = ({ across, up }) => {
     if (event.kind !== 'start' && event.kind !== 'end') last.set(points.branch[event.point], event.point);
   if (last.size === 0) return null;
   const seen = (i) => i <= (last.get(points.branch[i]) ?? -1);
-  const range = (values, is_in) => {
-    let low = Infinity, high = -Infinity;
-    values.forEach((value, i) => {
-      if (value === null || !is_in(i)) return;
-      low = Math.min(low, value);
-      high = Math.max(high, value);
-    });
-    return [low, high];
-  };
+  const range = (values, is_in) => range_of(values.filter((_, i) => is_in(i)));
   const ranges = [across.values, up.values].map((values) => [range(values, seen), range(values, () => true)]);
   const small = 0.4;
   const width = ([low, high]) => high - low;
@@ -119,16 +110,18 @@ const event_trace = ({ across, up }, drawn) => {
   };
 };
 
-// Other runs and measured points, where they have both quantities.
-const overlay_traces = ({ across, up }) => data.overlays.filter(({ values }) => values[across.key] && values[up.key]).map((other) => {
-  const [x, y] = [across, up].map(({ key }) => values_with_gaps(other, key));
-  return { type: 'scatter', mode: other.measured ? 'markers' : 'lines', hoverinfo: 'text', connectgaps: false, x, y,
-    hovertext: y.map((value, i) => as_text(`${other.name}: ${up.name} = ${round(value, 8)}, ${across.name} = ${round(x[i], 8)}`)),
-    line: { color: other.colour, width: 1.6 },
-    marker: { color: other.colour, size: 7, symbol: 'x-thin', line: { color: other.colour, width: 1.6 } } };
+// Other runs and measured points, where they have both quantities. Of a run a second trace has the points.
+const overlay_traces = ({ across, up }) => data.overlays.filter(({ values }) => values[across.key] && values[up.key]).flatMap((other) => {
+  const { [across.key]: x, [up.key]: y } = other.values;
+  const named = { type: 'scatter', x, y, hoverinfo: 'text',
+    hovertext: y.map((value, i) => as_text(`${other.name}: ${up.name} = ${round(value, 8)}, ${across.name} = ${round(x[i], 8)}`)) };
+  if (other.measured) return [{ ...named, mode: 'markers', marker: { color: other.colour, size: 7, symbol: 'x-thin', line: { color: other.colour, width: 1.6 } } }];
+  const sizes = sizes_of(across.values, up.values), drawn = { x: [], y: [] };
+  other.firsts.forEach((first, b) => {
+    const part = drawn_curve(other, across.key, up.key, sizes, first, (other.firsts[b + 1] ?? x.length) - 1);
+    drawn.x.push(...part.x, null);
+    drawn.y.push(...part.y, null);
+  });
+  return [{ ...named, mode: 'lines', line: { width: 0 } },
+    { type: 'scatter', mode: 'lines', hoverinfo: 'skip', connectgaps: false, ...drawn, line: { color: other.colour, width: 1.6 } }];
 });
-const values_with_gaps = (other, key) => {
-  const values = [...other.values[key]];
-  for (const first of [...other.firsts].reverse()) if (first > 0) values.splice(first, 0, null);
-  return values;
-};

@@ -28,4 +28,6 @@ const quantities = [
   { key: 'step', name: 'step', title: 'number of the point', values: points.step },
 ];
 const load = quantities[0];
-const first_across = columns.length > 0 ? quantities[1] : quantities.find(({ key }) => key === 'arc');
+const first_across = columns.length > 0 ? quantities[1 + (data.moved ? data.force ?? 0 : 0)] : quantities.find(({ key }) => key === 'arc');
+// Of a movement λ is the way: it is across, and a force up.
+const first_axes = data.moved && columns.length > 0 && typeof Plotly !== 'undefined' ? { across: load, up: first_across } : { across: first_across, up: load };

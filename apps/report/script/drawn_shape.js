@@ -56,10 +56,16 @@ const draw_stage = (shape) => {
   place_named_points(shape);
 };
 
-// The members that are not hidden, in the shape and in the first shape behind it.
+// The members that are not hidden, in the shape and in the first shape behind it. A wall that some of them pass is light.
 const show_members = () => {
   for (const drawn of document.querySelectorAll('#stage [data-path], #stage [data-member]')) {
     const m = Number(drawn.dataset.path ?? drawn.dataset.member);
     if (m < data.members.length) drawn.classList.toggle('hidden-member', is_hidden(m));
   }
+  const shown = data.members.filter((_, m) => !is_hidden(m)).map(({ name }) => name);
+  for (const part of ['surface', 'body'])
+    document.querySelectorAll(`#stage #walls .${part}`).forEach((drawn, i) => {
+      const { members } = data.walls[i];
+      drawn.classList.toggle('light', members.length > 0 && shown.some((name) => !members.includes(name)));
+    });
 };

@@ -24,6 +24,17 @@ const show_values = (point) => {
   ]);
 };
 
+// The state after a jump, of which λ, the monitors and the energy are known.
+const show_values_after = (jump) => {
+  fill(element('values').tBodies[0], [
+    ['load factor λ', load_factor(jump.point, 8)],
+    ...columns.map((column, i) => [column.title, round(jump.to[i], 7)]),
+    ['stability', 'stable'],
+    ['energy', with_unit(round(jump.energy, 6), data.energy_unit)],
+    ['branch, step', jump.behind === null ? 'off the branches' : `${points.branch[jump.behind]}, after ${points.step[jump.behind]}`],
+  ]);
+};
+
 const most_rows = Math.min(shapes.reduce((most, { contacts }) => Math.max(most, contacts.length), 0), 6);
 const show_shape = (shape) => {
   draw_stage(shape);
@@ -49,22 +60,26 @@ const show_row = (row) => {
   else if (below > frame.scrollTop + frame.clientHeight) frame.scrollTop = below - frame.clientHeight;
 };
 
+const mark_rows = (place) => {
+  for (const marked of document.querySelectorAll('#events .here, #jumps .here, #strip .here')) marked.classList.remove('here');
+  for (const one of document.querySelectorAll(`:is(#events, #jumps, #strip) [${place}]`)) one.classList.add('here');
+  show_row(document.querySelector('#events .here, #jumps .here'));
+};
 const show_event = (point) => {
   const said = (events_at.get(point) ?? []).map((event) =>
     without_hyphens(event.kind) + (event.what === '' ? '' : ` – ${event.what}`));
   element('happening').textContent = said.join('; ');
-  for (const marked of document.querySelectorAll('#events .here, #strip .here')) marked.classList.remove('here');
-  for (const one of document.querySelectorAll(`#events [data-point="${point}"], #strip [data-point="${point}"]`))
-    one.classList.add('here');
-  show_row(document.querySelector('#events .here'));
+  mark_rows(`data-point="${point}"`);
 };
 
 let current = 0;  // shape
+let jumped = null;  // the jump whose end is shown instead
 let chart = null;
 let show_forces = () => {};
 
 const show = (index) => {
   current = Math.min(Math.max(index, 0), shapes.length - 1);
+  jumped = null;
   const { point } = shapes[current];
   element('slider').value = current;
   element('slider').setAttribute('aria-valuetext', `λ = ${load_factor(point, 6)}, point ${point}`);
@@ -74,6 +89,22 @@ const show = (index) => {
   show_event(point);
   chart.mark(point);
 };
+
+// Where the structure comes to rest; the slider stays at the event.
+const show_jump = (number) => {
+  const jump = data.jumps[number];
+  show(shape_near(jump.point));
+  jumped = number;
+  show_shape(jump.shape);
+  show_forces(jump.shape);
+  show_values_after(jump);
+  element('happening').textContent = `after the ${jump.returns ? 'return ' : ''}jump at λ = ${round(jump.lambda, 6)}: releases ` +
+    with_unit(round(jump.released, 5), data.energy_unit);
+  element('slider').setAttribute('aria-valuetext', element('happening').textContent);
+  mark_rows(`data-jump="${number}"`);
+  chart.mark(jump);
+};
+const shown_shape = () => jumped === null ? shapes[current] : data.jumps[jumped].shape;
 
 // The shape of a point, or of the nearest point of its branch that has one.
 const shape_near = (point) => {

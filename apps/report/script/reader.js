@@ -1,9 +1,9 @@
 // What the reader does, and how the page opens.
-const on_keys = (target, keys) => target.addEventListener('keydown', (pressed) => {
+const on_keys = (target, keys, options = {}) => target.addEventListener('keydown', (pressed) => {
   if (pressed.ctrlKey || pressed.altKey || pressed.metaKey || !(pressed.key in keys)) return;
   pressed.preventDefault();
   keys[pressed.key](pressed);
-});
+}, options);
 const step = (by) => () => { stop(); show(current + by); };
 const toggle = () => playing === null ? play() : stop();
 const walk = { ArrowLeft: step(-1), ArrowRight: step(1), Home: () => { stop(); show(0); },
@@ -12,30 +12,34 @@ const walk = { ArrowLeft: step(-1), ArrowRight: step(1), Home: () => { stop(); s
 // Rows, pictures and words that stand for a point: a click, Enter or Space goes there; of a list one item is in the
 // order of the Tab key, arrows lead to the others.
 const make_list = (items) => items.forEach((item, i) => {
-  const point = Number(item.dataset.point);
+  const choose = (one) => {
+    if (one.dataset.jump === undefined) return go_to(Number(one.dataset.point));
+    stop();
+    show_jump(Number(one.dataset.jump));
+  };
   const focus = (other) => () => {
     if (!items[other]) return;
     item.tabIndex = -1;
     items[other].tabIndex = 0;
     items[other].focus();
-    go_to(Number(items[other].dataset.point));
+    choose(items[other]);
   };
   item.tabIndex = i === 0 ? 0 : -1;
-  item.addEventListener('click', () => go_to(point));
-  on_keys(item, { Enter: () => go_to(point), ' ': () => go_to(point), ArrowDown: focus(i + 1), ArrowRight: focus(i + 1),
+  item.addEventListener('click', () => choose(item));
+  on_keys(item, { Enter: () => choose(item), ' ': () => choose(item), ArrowDown: focus(i + 1), ArrowRight: focus(i + 1),
     ArrowUp: focus(i - 1), ArrowLeft: focus(i - 1), Home: focus(0), End: focus(items.length - 1) });
 });
 
 if (shapes.length === 0) return null;
 document.documentElement.classList.add('js');
 const quantity = (key) => quantities.find((one) => one.key === key);
-let axes = { across: quantity(before?.axes.across) ?? first_across, up: quantity(before?.axes.up) ?? load };
+let axes = { across: quantity(before?.axes.across) ?? first_axes.across, up: quantity(before?.axes.up) ?? first_axes.up };
 if (typeof Plotly === 'undefined') {
   chart = picture_chart(go_to, axes);
 } else {
   element('charts').classList.add('drawn-by-library');
-  chart = plotly_chart(go_to, axes);
-  on_keys(element('plot'), walk);
+  chart = plotly_chart(go_to, axes, before?.plot);
+  on_keys(element('plot'), walk, { signal: closing.signal });
 }
 show_forces = forces_panel();
 hide_members(data.members.flatMap(({ name }, m) => before?.hidden.includes(name) ? [m] : []), true);
@@ -63,6 +67,7 @@ element('play').addEventListener('click', toggle);
 element('event-before').addEventListener('click', () => go_to_event(-1));
 element('event-after').addEventListener('click', () => go_to_event(1));
 make_list([...document.querySelectorAll('#events tbody tr')]);
+make_list([...document.querySelectorAll('#jumps tbody tr[data-jump]')]);
 make_list([...document.querySelectorAll('#strip figure')]);
 make_list([...document.querySelectorAll('.tree [data-point]')]);
 
@@ -92,8 +97,11 @@ for (const [id, value] of before?.chosen ?? []) {
 }
 
 const asked_for = /^#point=(\d+)$/.exec(window.location.hash);  // report.html#point=30
+// The event that matters: the first jump, else the first at which stability may be lost, else the end.
 const turning = ['limit-point', 'contact-limit-point', 'branch-point'];
-const opening = asked_for ? Number(asked_for[1]) : events.find((event) => turning.includes(event.kind))?.point ?? 0;
+const first_jump = events.find((event) => event.jumps), first_turn = events.find((event) => turning.includes(event.kind));
+const opening = asked_for ? Number(asked_for[1]) : (first_jump ?? first_turn ?? events.find(({ kind }) => kind === 'end'))?.point ?? 0;
 walked = before?.walked ?? asked_for !== null;
 show(before ? shape_as_before(before) : shape_near(opening));
-return { view, close: () => { cancelAnimationFrame(playing); closing.abort(); } };
+return { view, curve: path_curve, release_plot: () => chart.release(),
+  close: () => { cancelAnimationFrame(playing); closing.abort(); } };

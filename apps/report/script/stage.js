@@ -82,7 +82,7 @@ const say_what_is_pointed_at = (stage) => {
     let found = null, least = reach;
     data.members.forEach((_, m) => {
       if (is_hidden(m)) return;
-      drawn_places(shapes[current], m).forEach(([px, py], index) => {
+      drawn_places(shown_shape(), m).forEach(([px, py], index) => {
         const distance = Math.hypot(px - x, py - y);
         if (distance < least) [found, least] = [{ m, index }, distance];
       });
@@ -90,7 +90,7 @@ const say_what_is_pointed_at = (stage) => {
     return found;
   };
   const carried = (m, index) => {
-    const samples = shapes[current].forces[m] ?? [];
+    const samples = shown_shape().forces[m] ?? [];
     const nearest = samples.reduce((best, sample) => best && Math.abs(best[0] - index) <= Math.abs(sample[0] - index) ? best : sample, null);
     if (!nearest) return '';
     const [, fraction, n, q, moment] = nearest;
@@ -167,8 +167,8 @@ const shape_tools = () => {
   const stage = element('stage');
   const set_whole = nearer_and_aside(stage);
   const redraw = () => {
-    show_shape(shapes[current]);
-    show_forces(shapes[current]);
+    show_shape(shown_shape());
+    show_forces(shown_shape());
   };
   element('shape-svg').addEventListener('click', () => save(as_blob(picture_alone(stage)), 'shape.svg'));
   element('shape-png').addEventListener('click', () => save_png(picture_alone(stage), 'shape.png'));
@@ -180,7 +180,10 @@ const shape_tools = () => {
     const member = data.members[Number(part.dataset.path)];
     if (member) name_part(part, `member ${member.name}`);
   }
-  document.querySelectorAll('#walls .body').forEach((part, i) => { if (data.walls[i]) name_part(part, `wall ${data.walls[i]}`); });
+  document.querySelectorAll('#walls .body').forEach((part, i) => {
+    const { name, members } = data.walls[i];
+    name_part(part, `wall ${name}${members.length > 0 ? `, for ${members.join(', ')}` : ''}`);
+  });
   place_named_points = name_points();
   say_what_is_pointed_at(stage);
   scale_choice(set_whole, redraw);
