@@ -2,6 +2,7 @@
 #include <iostream>
 #include <optional>
 
+#include "apps/cli/browser_print.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/output/files.hpp"
 #include "apps/output/overlay.hpp"
@@ -43,6 +44,7 @@ void require_common_columns(const std::vector<Overlay>& overlays, const Record& 
 fs::path page_of(const Options& options) {
   const auto wanted = options.text("out");
   if (wanted) return *wanted;
+  if (options.has("pdf") || options.has("png")) return {};
   if (options.words().size() > 1 || !options.texts("measured").empty())
     throw InputError("--out is missing; name the file for a page of several runs or of measured points");
   return fs::path(options.words().front()) / "report.html";
@@ -59,8 +61,20 @@ ExitStatus write_report(const Options& options) {
   ReportContent content = report_content(run.model(), record, scenes_to_draw(run.model(), record));
   content.overlays = overlays(options, record);
   require_common_columns(content.overlays, record);
-  write_whole(file, ReportPage(record, content).pieces());
-  std::cerr << "wrote " << file.string() << "\n";
+  const auto tell = [](const fs::path& written) { std::cerr << "wrote " << written.string() << "\n"; };
+  const auto pdf = options.text("pdf"), png = options.text("png");
+  if (options.has("out") || (!pdf && !png)) {
+    write_whole(file, ReportPage(record, content).pieces());
+    tell(file);
+  }
+  if (pdf) {
+    print_page(sheet_html(record, content), PrintFormat::pdf, *pdf);
+    tell(*pdf);
+  }
+  if (png) {
+    print_page(picture_html(record, content), PrintFormat::png, *png);
+    tell(*png);
+  }
   return ExitStatus::success;
 }
 
@@ -76,6 +90,8 @@ Command report_command() {
                                        .help = "draw measured points; the first line names lambda and monitors; may be "
                                                "repeated",
                                        .repeatable = true},
+                                      {"pdf", "FILE", "write one sheet A4 with curve, shapes and tables (by Chromium)"},
+                                      {"png", "FILE", "write the curve as a picture (by Chromium)"},
                                       {"out", "FILE", "page to write (default: report.html in the folder of the run)"}},
                           .least_words = 1,
                           .most_words = most_runs},

@@ -1,6 +1,6 @@
 // Drives Chromium through pages that trace-path writes: node report_in_browser.mjs TRACE_PATH EXAMPLES CHROMIUM
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawnSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
@@ -204,6 +204,101 @@ const press_play = (page) => page.evaluate(async () => {
   await new Promise(requestAnimationFrame);
   await new Promise(requestAnimationFrame);
   return { label, value: Number(document.getElementById('slider').value) };
+});
+
+const data_of = (page) => page.evaluate(() => JSON.parse(document.getElementById('data').textContent));
+
+test('curves are smooth: through all points, with the tangents of the path', async () => {
+  const { page, finish } = await open(channel);
+  if (await has_plotly(page)) {
+    const { points, lines, rates } = await data_of(page);
+    const drawn = await page.evaluate(() => document.getElementById('plot').data.filter(({ mode, line, hoverinfo }) =>
+      mode === 'lines' && line.width > 2 && hoverinfo === 'skip').map(({ x, y, line }) => ({ x, y, dash: line.dash })));
+    const all = drawn.flatMap(({ x, y }) => x.map((value, i) => [value, y[i]]));
+    const at = (i) => all.findIndex(([x, y]) => x === points.monitors[0][i] && y === points.lambda[i]);
+    points.lambda.forEach((_, i) => assert.ok(at(i) >= 0, `point ${i} is on the curve`));
+    assert.ok(all.length > 2 * points.lambda.length, `${all.length} places for ${points.lambda.length} points`);
+    assert.equal(new Set(lines.map(({ stability }) => stability)).size, drawn.length);
+    // The unstable part leaves the limit point with λ at its maximum.
+    const limit = (await page.evaluate(() => JSON.parse(document.getElementById('data').textContent).events.find(({ kind }) => kind === 'limit-point'))).point;
+    const [, , leaves] = rates.find(([point]) => point === limit), [, arrives] = rates.find(([point]) => point === limit);
+    assert.equal(leaves, undefined, 'no kink');
+    assert.ok(Math.abs(arrives[0]) < 1e-6 * Math.abs(arrives[1]), `${arrives}`);
+  }
+  await finish();
+});
+
+test('where contacts change the curve has a kink', async () => {
+  const { page, finish } = await open(channel);
+  const { events, rates } = await data_of(page);
+  const closes = events.find(({ kind }) => kind === 'contact-closes').point;
+  const [, before, after] = rates.find(([point]) => point === closes);
+  assert.ok(before[1] / before[0] > 1 && Math.abs(after[1] / after[0]) < 1e-6, `mid over λ: ${before}, then ${after}`);
+  await finish();
+});
+
+test('the state after a jump is a shape, and play jumps to it', async () => {
+  const { page, finish } = await open(channel);
+  const { jumps, points } = await data_of(page);
+  assert.deepEqual(jumps.map(({ returns }) => returns), [false, true]);
+  const before = await shape(page);
+  await page.locator('#jumps tbody tr').click();
+  assert.match(await page.textContent('#happening'), /^after the jump at λ = 6\.7\d+: releases 0\.42178 kN cm$/);
+  assert.notEqual(await shape(page), before);
+  assert.equal(Number(await page.textContent('#values tr:nth-child(2) td')), Number(jumps[0].to[0].toPrecision(7)));
+  assert.equal(await page.locator('#strip figure.here figcaption').textContent(), 'after the jumpfrom event 3');
+  assert.equal(await page.inputValue('#slider'), String(jumps[0].point), 'the slider stays at the event');
+  // All that play shows: up to the jump, its end, and on from there; nothing of the unstable part.
+  await page.locator('#slider').fill('0');
+  const seen = await page.evaluate(async () => {
+    const all = [], play = document.getElementById('play');
+    play.click();
+    while (play.classList.contains('playing')) {
+      await new Promise(requestAnimationFrame);
+      all.push([Number(document.getElementById('slider').value), document.getElementById('happening').textContent]);
+    }
+    return all;
+  });
+  assert.ok(seen.some(([, said]) => said.startsWith('after the jump')), 'the jump');
+  const unstable = seen.filter(([value]) => value > jumps[0].point && value <= jumps[0].behind);
+  assert.deepEqual(unstable, []);
+  assert.equal(seen.at(-1)[0], points.lambda.length - 1);
+  await finish();
+});
+
+test('of a moved deck the way is across and the force up', async () => {
+  const { page, finish } = await open(report_of(join(examples, 'snap-fit.toml'), 'moved'));
+  if (await has_plotly(page)) {
+    assert.match(await page.textContent('#plot .xtitle'), /^way of .* λ, times/);
+    assert.match(await page.textContent('#plot .ytitle'), /\[N\]/);
+    assert.equal(await page.evaluate(() => document.getElementById('monitor').selectedOptions[0].textContent), await page.textContent('#plot .xtitle'));
+    // The push turns where the nose passes a corner; the curve does not go beyond that point.
+    const { points, events } = await data_of(page), greatest = Math.max(...points.monitors[0]);
+    assert.ok(events.some(({ kind, point }) => kind === 'turning-point' && points.monitors[0][point] === greatest));
+    const drawn = await page.evaluate(() => document.getElementById('plot').data.filter(({ line, hoverinfo }) => line?.width > 2 && hoverinfo === 'skip').flatMap(({ y }) => y));
+    assert.ok(Math.max(...drawn) <= greatest * (1 + 1e-12));
+  }
+  await finish();
+});
+
+test('one sheet as a PDF, and the curve as a PNG', () => {
+  const sheet = join(folder, 'sheet.pdf'), curve = join(folder, 'curve.png'), before = readFileSync(channel);
+  execFileSync(trace_path, ['report', join(folder, 'channel'), '--pdf', sheet, '--png', curve], { stdio: 'ignore' });
+  const pdf = readFileSync(sheet, 'latin1');
+  assert.ok(pdf.startsWith('%PDF-'));
+  assert.equal(pdf.match(/\/Type\s*\/Page\b(?!s)/g).length, 1, 'one page');
+  const [, width, height] = pdf.match(/\/MediaBox\s*\[\s*0\s+0\s+([\d.]+)\s+([\d.]+)/);
+  assert.deepEqual([width, height].map((points) => Math.round(points / 72 * 25.4)), [210, 297]);
+  const png = readFileSync(curve);
+  assert.equal(png.toString('latin1', 1, 4), 'PNG');
+  assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [2160, 1600]);
+  assert.deepEqual(readFileSync(channel), before, 'report.html stays as it is');
+});
+
+test('without Chromium a sentence names its package', () => {
+  const { status, stderr } = spawnSync(trace_path, ['report', join(folder, 'channel'), '--pdf', join(folder, 'none.pdf')], { env: { PATH: '/nowhere' }, encoding: 'utf8' });
+  assert.notEqual(status, 0);
+  assert.match(stderr, /install Debian's package chromium/);
 });
 
 test('play goes to the end, and again from the start', async () => {
