@@ -19,6 +19,7 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/explore/traced_curve.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/report_parts.hpp"
 #include "core/error.hpp"
@@ -84,8 +85,17 @@ class Site {
     return target.substr(root_.size());
   }
 
-  std::unique_ptr<Worker> worker(std::string text) const {
-    return std::make_unique<Worker>(EditedDeck{.file = deck_.file, .text = std::move(text)}, limits_);
+  // The run of a text.
+  std::unique_ptr<Worker> tracer_of_page(const std::string& text) const {
+    return std::make_unique<Worker>(
+        [&](const LineSink& give) { trace_to_page({.file = deck_.file, .text = text}, limits_.seconds, give); },
+        limits_);
+  }
+
+  // The curve of an event.
+  std::unique_ptr<Worker> tracer_of_curve(const std::string& request) const {
+    return std::make_unique<Worker>(
+        [&](const LineSink& give) { trace_to_curve(deck_.file, request, limits_.seconds, give); }, limits_);
   }
 
   std::string deck_json() const {
@@ -138,7 +148,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
     stream_.expires_never();
     const auto path = site_.asked_for(request);
     if (!path) return respond(request, http::status::forbidden, "text/plain", "forbidden\n");
-    if (*path == "trace" && request.method() == http::verb::post) return trace(request);
+    const bool posts = request.method() == http::verb::post;
+    if (*path == "trace" && posts) return trace(request, &Site::tracer_of_page);
+    if (*path == "curve" && posts) return trace(request, &Site::tracer_of_curve);
     if (request.method() != http::verb::get)
       return respond(request, http::status::method_not_allowed, "text/plain", "not allowed\n");
     if (*path == "open") return show_page();
@@ -197,9 +209,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
     begin_stream("text/event-stream", [] {});
   }
 
-  void trace(const Request& request) {
+  void trace(const Request& request, std::unique_ptr<Worker> (Site::*tracer)(const std::string&) const) {
     try {
-      worker_ = site_.worker(request.body());
+      worker_ = (site_.*tracer)(request.body());
     } catch (const OutputError& error) {
       return respond(request, http::status::service_unavailable, "text/plain", error.what());
     }

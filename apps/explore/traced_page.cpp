@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <new>
-#include <nlohmann/json.hpp>
 
 #include "apps/explore/deck_numbers.hpp"
+#include "apps/explore/lines.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/report_html.hpp"
 #include "apps/output/report_parts.hpp"
@@ -19,15 +18,6 @@ namespace arcwall::explore {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr std::size_t most_characters = 2000;  // of a message that a page shows
-
-void give_json(const Json& json, const LineSink& give) {
-  constexpr bool ascii = true;
-  give(json.dump(-1, ' ', ascii, Json::error_handler_t::replace) + "\n");
-}
-
 Json numbers_json(const EditedDeck& deck) {
   constexpr std::size_t most = 2000;
   Json list = Json::array();
@@ -38,13 +28,6 @@ Json numbers_json(const EditedDeck& deck) {
                     {"whole", number.whole},
                     {"line", number.position.line},
                     {"column", number.position.column}});
-  return list;
-}
-
-Json errors_json(const InputError& error) {
-  Json list = Json::array();
-  for (const Diagnostic& one : error.diagnostics())
-    list.push_back({{"line", one.line}, {"text", plain(to_text(one), most_characters)}});
   return list;
 }
 
@@ -94,20 +77,10 @@ void trace_and_give(const EditedDeck& deck, double most_seconds, const LineSink&
   give_json(answer, give);
 }
 
-Json problem_json(const std::string& problem) { return {{"errors", Json::array({{{"line", 0}, {"text", problem}}})}}; }
-
 }  // namespace
 
 void trace_to_page(const EditedDeck& deck, double most_seconds, const LineSink& give) {
-  try {
-    trace_and_give(deck, most_seconds, give);
-  } catch (const InputError& error) {
-    give_json({{"errors", errors_json(error)}}, give);
-  } catch (const std::bad_alloc&) {
-    give_json(problem_json("memory ran out; use fewer elements"), give);
-  } catch (const std::exception& problem) {
-    give_json(problem_json(std::string("internal error: ") + problem.what()), give);
-  }
+  give_or_say_why_not(give, [&] { trace_and_give(deck, most_seconds, give); });
 }
 
 }  // namespace arcwall::explore

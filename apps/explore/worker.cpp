@@ -34,23 +34,23 @@ void write_all(int descriptor, const std::string& text) {
 }
 
 // What the process does. A file that the deck names may be read; none is written.
-int trace_into(int pipe, const EditedDeck& deck, const TraceLimits& limits) {
+int trace_into(int pipe, const Traces& traces, const TraceLimits& limits) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
   limit(RLIMIT_AS, limits.gigabytes * 1e9);
   limit(RLIMIT_CPU, 2.0 * limits.seconds);
   limit(RLIMIT_FSIZE, 0.0);
   limit(RLIMIT_CORE, 0.0);
-  trace_to_page(deck, limits.seconds, [&](const std::string& line) { write_all(pipe, line); });
+  traces([&](const std::string& line) { write_all(pipe, line); });
   return 0;
 }
 
 }  // namespace
 
-Worker::Worker(EditedDeck deck, const TraceLimits& limits) {
+Worker::Worker(const Traces& traces, const TraceLimits& limits) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw OutputError("no pipe can be opened: " + std::generic_category().message(errno));
-  const auto body = [&, into = ends[1]](const std::vector<std::string>&) { return trace_into(into, deck, limits); };
+  const auto body = [&, into = ends[1]](const std::vector<std::string>&) { return trace_into(into, traces, limits); };
   try {
     process_ = sweep::start({.body = body, .folder = ".", .messages = "/dev/null"});
   } catch (const OutputError&) {

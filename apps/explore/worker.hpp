@@ -12,12 +12,15 @@ struct TraceLimits {
   double gigabytes = 4.0;  ///< of memory
 };
 
-/// A process that traces a deck and writes the lines of trace_to_page() into a pipe. It ends with this object, and
-/// with this program; it writes no file. This program must have one thread.
+/// What a process does: it traces, and gives lines.
+using Traces = std::function<void(const LineSink& give)>;
+
+/// A process that traces and writes its lines into a pipe. It ends with this object, and with this program; it writes
+/// no file. This program must have one thread.
 class Worker {
  public:
   /// Throws OutputError where no process can be started.
-  Worker(EditedDeck deck, const TraceLimits& limits);
+  Worker(const Traces& traces, const TraceLimits& limits);
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
   ~Worker();

@@ -128,7 +128,15 @@ const add_slider = (key) => {
     box.remove();
     list_keys();
   });
-  shown.set(key, { show_number });
+  const choose = (value) => {
+    const was = text;
+    change(value);
+    before = null;
+    show_number(false);
+    if (text !== was) remember(was);
+    trace_now();
+  };
+  shown.set(key, { show_number, choose, ends: () => [Number(low.value), Number(high.value)] });
   element('sliders').append(box);
   show_number();
   set_ends();
@@ -136,6 +144,7 @@ const add_slider = (key) => {
 };
 
 const list_keys = () => {
+  offer_curves();
   const most = 60, part = element('find').value.trim().toLowerCase();
   const all = numbers.filter(({ key }) => !shown.has(key) && key.toLowerCase().includes(part));
   element('found').replaceChildren(...all.slice(0, most).map(({ key, value, unit }) => {
@@ -256,7 +265,7 @@ const select_line = (line) => {
 const show_page = () => {
   const page = new DOMParser().parseFromString(last.page, 'text/html');
   const data = JSON.parse(page.getElementById('data').textContent);
-  const before = report?.view();
+  const before = report && { ...report.view(), plot: report.release_plot() };
   report?.close();
   report = null;
   data.overlays = pins;
@@ -264,7 +273,100 @@ const show_page = () => {
   element('result').replaceChildren(...['header', 'main'].map((part) => document.adoptNode(page.querySelector(part))));
   report = show_report(data, before);
   last.data = data;
+  offer_curves();
 };
+
+// --- the load of an event over a number --------------------------------------------------------------------------------
+
+const followed = ['limit-point', 'contact-limit-point', 'branch-point', 'turning-point', 'value-crossing', 'contact-closes',
+  'contact-spreads', 'contact-shrinks'];
+let following = null;  // what ends the curve under way
+
+// The events of the first branch, by kind and number, and the numbers with sliders.
+const offer_curves = () => {
+  const choose_again = (select, options) => {
+    const before = select.value;
+    select.replaceChildren(...options.map(([value, words]) => new Option(words, value)));
+    if (options.some(([value]) => value === before)) select.value = before;
+  };
+  const counts = new Map(), events = (last?.data.events ?? []).filter(({ point }) => last.data.points.branch[point] === 0);
+  const offered = events.map(({ kind, point }) => {
+    counts.set(kind, (counts.get(kind) ?? 0) + 1);
+    const number = counts.get(kind);
+    return { kind, rank: followed.indexOf(kind), value: `${kind} ${number}`,
+      words: `${kind.replaceAll('-', ' ')}${number > 1 ? ` ${number}` : ''}, λ = ${Number(last.data.points.lambda[point].toPrecision(5))}` };
+  }).filter(({ rank }) => rank >= 0).sort((a, b) => a.rank - b.rank);
+  choose_again(element('curve-event'), offered.map(({ value, words }) => [value, words]));
+  choose_again(element('curve-key'), [...shown.keys()].map((key) => [key, key]));
+  element('follow').disabled = offered.length === 0 || shown.size === 0;
+  if (following === null && shown.size === 0) element('curve-note').textContent = 'Add a slider for the number; its ends are those of the curve.';
+};
+
+// Between points whose slopes are known a cubic; at a cusp, where there is none, a straight line.
+const smooth = (places) => places.flatMap(([x, y, slope], i) => {
+  const next = places[i + 1], parts = 12;
+  if (!next || slope === null || next[2] === null) return [[x, y]];
+  return Array.from({ length: parts }, (_, k) => {
+    const t = k / parts, u = 1 - t, way = next[0] - x;
+    return [x + t * way, u * u * (1 + 2 * t) * y + t * t * (1 + 2 * u) * next[1] + t * u * way * (u * slope - t * next[2])];
+  });
+});
+
+const draw_event_curve = ({ key, unit, points: places, specials }) => {
+  const style = getComputedStyle(document.documentElement), colour = (name) => style.getPropertyValue(`--${name}`).trim();
+  const symbols = { cusp: 'diamond', crossing: 'x', begins: 'square-open', ends: 'square-open' };
+  const drawn = smooth(places), title = (text) => ({ text: text.replaceAll('<', '&lt;'), standoff: 8 });
+  const axis = { zeroline: false, gridcolor: colour('grid'), linecolor: colour('edge'), automargin: true, exponentformat: 'power' };
+  const traces = [
+    { type: 'scatter', mode: 'lines', hoverinfo: 'skip', x: drawn.map(([x]) => x), y: drawn.map(([, y]) => y), line: { color: colour('accent'), width: 2.2 } },
+    { type: 'scatter', mode: 'markers', x: places.map(([x]) => x), y: places.map(([, y]) => y), marker: { color: colour('accent'), size: 5 },
+      hovertemplate: `%{x}<br>λ = %{y}<extra></extra>` },
+    { type: 'scatter', mode: 'markers', x: specials.map(({ point }) => places[point][0]), y: specials.map(({ point }) => places[point][1]),
+      marker: { color: colour('force'), size: 11, symbol: specials.map(({ kind }) => symbols[kind]) },
+      hovertext: specials.map(({ kind, why }) => `${kind}${why === '' ? '' : `: ${why.replaceAll('<', '&lt;')}`}`), hoverinfo: 'text' }];
+  const now = number_at(key)?.value;
+  const plot = element('curve-plot');
+  Plotly.react(plot, traces, { autosize: true, showlegend: false, hovermode: 'closest', margin: { l: 10, r: 12, t: 10, b: 10 }, dragmode: false,
+    xaxis: { ...axis, title: title(unit === '' ? key : `${key} [${unit}]`) }, yaxis: { ...axis, title: title('λ of the event') },
+    font: { family: 'system-ui, sans-serif', size: 13, color: colour('ink') }, paper_bgcolor: colour('paper'), plot_bgcolor: colour('paper'),
+    shapes: now === undefined ? [] : [{ type: 'line', xref: 'x', yref: 'paper', x0: now, x1: now, y0: 0, y1: 1, line: { color: colour('force'), width: 1.2, dash: 'dot' } }] },
+  { responsive: true, displaylogo: false, displayModeBar: false });
+  if (plot.choose === undefined) plot.on('plotly_click', (clicked) => plot.choose(clicked));
+  plot.choose = ({ points: [{ x }] }) => shown.get(key)?.choose(as_text(Number(x.toPrecision(12))));
+};
+
+const follow_event = async () => {
+  following?.abort();
+  const control = following = new AbortController(), note = element('curve-note');
+  const [kind, number] = element('curve-event').value.split(' '), parameter = element('curve-key').value;
+  const [low, high] = shown.get(parameter).ends();
+  let curve = null;
+  note.textContent = 'tracing …';
+  try {
+    const answer = await fetch('curve', { method: 'POST', signal: control.signal,
+      body: JSON.stringify({ text, kind, number: Number(number), parameter, low, high }) });
+    if (!answer.ok) throw new Error(await answer.text());
+    for await (const line of lines_of(answer.body)) {
+      if (line.progress !== undefined) note.textContent = line.progress;
+      if (line.errors) throw new Error(line.errors.map(({ text: words }) => words).join('; '));
+      if (line.killed !== undefined) throw new Error(signals.get(line.killed) ?? `signal ${line.killed} ended it`);
+      if (!line.curve) continue;
+      curve = line.curve;
+      draw_event_curve(curve);
+      note.textContent = line.ended ? [`${curve.points.length} points; a click goes to that value.`,
+        ...curve.specials.map(({ kind: special, point, why }) => `${special} at ${curve.points[point][0].toPrecision(6)}${why === '' ? '' : ` (${why})`}`)].join(' · ')
+        : `${curve.points.length} points …`;
+    }
+  } catch (problem) {
+    if (!control.signal.aborted) note.textContent = `There is no curve: ${problem.message}`;
+  }
+  if (following === control) following = null;
+  element('curve-plot').dataset.ended = curve === null ? 'without' : 'yes';
+};
+element('follow').addEventListener('click', () => {
+  delete element('curve-plot').dataset.ended;
+  follow_event();
+});
 
 // --- pins, undo, the text, files ---------------------------------------------------------------------------------------
 
@@ -310,6 +412,29 @@ const command = () => {
   return `trace-path run ${quoted(deck.file)}${settings().map((setting) => ` --set ${quoted(setting)}`).join('')}`;
 };
 
+// A study of the numbers with sliders over their ranges, for `trace-path sweep plan`; null where the text has other changes
+// than of numbers. Numbers that were changed without a slider have one value.
+const study = () => {
+  if (command() === null) return null;
+  const values = 11, keys = [...shown.keys()].filter(number_at);
+  const line = (key) => {
+    const [low, high] = shown.get(key).ends(), { whole } = number_at(key);
+    if (!whole) return `${key} = { from = ${low}, to = ${high}, count = ${values} }`;
+    const step = Math.max(Math.round((high - low) / (values - 1)), 1);
+    return `${key} = [${Array.from({ length: Math.floor((high - low) / step) + 1 }, (_, i) => low + i * step).join(', ')}]`;
+  };
+  const fixed = differences(numbers).filter(({ key }) => !shown.has(key)).map(({ key, value }) => `${key} = [${as_text(value)}]`);
+  return [`# trace-path sweep plan ${study_file()} --out study; trace-path sweep run study; trace-path sweep collect study`,
+    `title = ${JSON.stringify(`${deck.file.split('/').at(-1)}: ${keys.join(', ')}`)}`, `deck = ${JSON.stringify(deck.file.split('/').at(-1))}`, '',
+    '[grid]', ...keys.map(line), ...fixed, ''].join('\n');
+};
+const study_file = () => deck.file.split('/').at(-1).replace(/\.toml$/, '') + '-study.toml';
+const save_text = (content, name) => {
+  const link = made('a', { href: URL.createObjectURL(new Blob([content], { type: 'application/toml' })), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+};
+
 element('undo').addEventListener('click', () => { if (undone.length > 0) go_back_to(undone.pop()); });
 element('reset').addEventListener('click', () => {
   remember(text);
@@ -323,10 +448,13 @@ element('text').addEventListener('input', () => {
   for (const { show_number } of shown.values()) show_number();
   trace_now();
 });
-element('save-deck').addEventListener('click', () => {
-  const link = made('a', { href: URL.createObjectURL(new Blob([text], { type: 'application/toml' })), download: deck.file.split('/').at(-1) });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+element('save-deck').addEventListener('click', () => save_text(text, deck.file.split('/').at(-1)));
+element('sweep').addEventListener('click', () => {
+  const words = shown.size === 0 ? null : study();
+  if (words !== null) save_text(words, study_file());
+  element('copied').textContent = shown.size === 0 ? 'Add a slider for each number that the study varies.'
+    : words === null ? 'The text has other changes than of numbers: save the deck, and explore that file.'
+      : `Put ${study_file()} beside ${deck.file.split('/').at(-1)}: trace-path sweep plan ${study_file()} --out study`;
 });
 element('command').addEventListener('click', async () => {
   const words = command();

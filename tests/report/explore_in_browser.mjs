@@ -131,6 +131,64 @@ test('pins, undo, reset, the command and the saved deck', async () => {
   await finish();
 });
 
+test('a study over the ranges of the sliders is one that sweep takes', async () => {
+  const { address, home } = await explore();
+  const { page, finish } = await opened(address);
+  await page.click('#sweep');
+  assert.match(await page.textContent('#copied'), /Add a slider/);
+  await add(page, upper);
+  await page.fill(`.number[data-key="${upper}"] .ends input >> nth=0`, '0.18');
+  await page.keyboard.press('Enter');
+  const [name, bytes] = await saved(page, '#sweep');
+  assert.equal(name, 'deck-study.toml');
+  writeFileSync(join(home, name), bytes);
+  execFileSync(trace_path, ['sweep', 'plan', name, '--out', 'study'], { cwd: home, stdio: 'pipe' });
+  const cases = readFileSync(join(home, 'study', 'cases.jsonl'), 'utf8').trim().split('\n').map((line) => JSON.parse(line));
+  const gaps = [...new Set(cases.map(({ set }) => Number(JSON.stringify(set).match(/0\.\d+/)[0])))];
+  assert.equal(cases.length, 11);
+  assert.equal(gaps.length, 11);
+  assert.equal(Math.min(...gaps), 0.18);
+  assert.equal(Math.max(...gaps), 0.3);
+  await finish();
+});
+
+test('the load of an event over a number: the curve of trace-path curve, and a click goes there', async () => {
+  const { address, home } = await explore();
+  const { page, finish } = await opened(address);
+  await page.click('#event-curve summary');
+  assert.ok(await page.isDisabled('#follow'));
+  await add(page, upper);
+  await page.fill(`.number[data-key="${upper}"] .ends input >> nth=0`, '0.17');
+  await page.keyboard.press('Enter');
+  assert.match(await page.locator('#curve-event option').first().textContent(), /^limit point, λ = 6\.7/);
+  await page.click('#follow');
+  await page.waitForSelector('#curve-plot[data-ended]', { state: 'attached' });
+  const [line, points, specials] = await page.evaluate(() => document.getElementById('curve-plot').data.map(({ x, y }) => ({ x, y })));
+  execFileSync(trace_path, ['curve', 'deck.toml', '--out', 'curve', '--quiet', '--set',
+    `curve={event={kind="limit-point",number=1},parameter="${upper}",range=[0.17,0.3]}`], { cwd: home, stdio: 'ignore' });
+  const [titles, ...rows] = readFileSync(join(home, 'curve', 'curve.csv'), 'utf8').trim().split('\n').map((row) => row.split(','));
+  const column = (name) => rows.map((row) => Number(row[titles.findIndex((title) => title.startsWith(name))]));
+  assert.deepEqual(points.x, column('key'));
+  assert.deepEqual(points.y, column('lambda'));
+  assert.ok(line.x.length > 5 * points.x.length, 'smooth');
+  assert.ok(specials.x.length >= 2, 'its ends');
+  const place = await page.evaluate(() => {
+    const plot = document.getElementById('curve-plot'), { xaxis, yaxis } = plot._fullLayout, { x, y } = plot.data[1], i = x.length >> 1;
+    plot.scrollIntoView();
+    const box = plot.getBoundingClientRect();
+    return { x: box.left + xaxis._offset + xaxis.l2p(x[i]), y: box.top + yaxis._offset + yaxis.l2p(y[i]), value: x[i] };
+  });
+  await page.mouse.move(place.x - 1, place.y - 1);
+  await page.mouse.move(place.x, place.y);
+  await page.waitForTimeout(150);
+  await page.mouse.click(place.x, place.y);
+  await settled(page);
+  const chosen = Number(await page.inputValue(`.number[data-key="${upper}"] input[type=text]`));
+  assert.ok(points.x.some((x) => Number(x.toPrecision(12)) === chosen) && chosen !== 0.2, `${chosen}`);
+  await page.locator('#curve-event').selectOption({ index: 1 });
+  await finish();
+});
+
 const with_a_variable = channel_text.replace('z = 0.2 }', 'z = "gap / 2" }').replace('z = -0.2 }', 'z = "-gap / 2" }') +
   '\n[variables]\ngap = 0.4\n';
 
