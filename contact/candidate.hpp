@@ -40,6 +40,20 @@ class Candidate {
   /// Gap and derivatives; only where faces_wall().
   void gap(const State& state, Gap& out) const;
 
+  /// The arc length of the touched place along the obstacle's tangent, which has the body to its left, and derivatives;
+  /// only where faces_wall(). Of a closed obstacle the round that is nearest to `near` [length].
+  void place(const State& state, double near, Gap& out) const;
+
+  /// The field of that arc length about a position that the obstacle faces.
+  QuadraticField place_field(const Vec2& position, double lambda) const;
+
+  /// The unit tangent of the obstacle with the body to its left; only where the gap vanishes.
+  Vec2 tangent(const State& state) const;
+
+  /// The coefficient of Coulomb friction μ ≥ 0.
+  double friction() const { return friction_; }
+  void set_friction(double coefficient) { friction_ = coefficient; }
+
   /// Rate of the gap along a direction; 0 where there is no surface.
   double gap_rate(const State& state, const Direction& direction) const;
 
@@ -56,6 +70,7 @@ class Candidate {
   std::shared_ptr<const Obstacle> obstacle_;
   ContactLabel label_;
   std::optional<Index> opposite_{};
+  double friction_ = 0.0;
 };
 
 }  // namespace arcwall

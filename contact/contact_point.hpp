@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contact_mode.hpp"
 #include "core/state.hpp"
 
 namespace arcwall {
@@ -21,12 +22,23 @@ struct ContactLabel {
 /// As messages say it: "roof at column:0.25", to four digits of the member; the member alone where there is no wall.
 std::string words_of(const ContactLabel& label);
 
+/// What friction does at a closed contact.
+struct FrictionOfContact {
+  ContactMode mode = ContactMode::sticks;
+  double force = 0.0;              ///< T, along the obstacle's tangent, on the body [force]
+  double coefficient = 0.0;        ///< μ [-]
+  double slip = 0.0;               ///< along the tangent since the contact closed [length]
+  Vec2 tangent = Vec2::UnitX();    ///< in the direction in which the obstacle's surface runs
+  std::optional<double> anchor{};  ///< x of the place of the obstacle where it sticks [length]
+};
+
 /// A contact of one state, as events, tables and pictures tell it.
 struct ContactPoint {
   ContactLabel label{};
-  Vec2 place = Vec2::Zero();         ///< of the point of the body that touches [length]
-  double force = 0.0;                ///< compression is positive; 0 where the contact is open [force]
-  Vec2 force_vector = Vec2::Zero();  ///< of the obstacle on the body, along the obstacle's normal [force]
+  Vec2 place = Vec2::Zero();                    ///< of the point of the body that touches [length]
+  double force = 0.0;                           ///< compression is positive; 0 where the contact is open [force]
+  Vec2 force_vector = Vec2::Zero();             ///< of the obstacle on the body [force]
+  std::optional<FrictionOfContact> friction{};  ///< of a closed contact with friction
 
   /// The force over the length of axis that it stands for [force/length]; empty where it is a point force.
   std::optional<double> pressure() const {

@@ -32,6 +32,11 @@ QuadraticField MovingObstacle::direction(const Vec2& position, double lambda) co
   return angle;
 }
 
+QuadraticField MovingObstacle::arc_length(const Vec2& position, double lambda) const {
+  const Seen at = seen(position, lambda);
+  return moved(at_rest_->arc_length(at.position, 0.0), at);
+}
+
 LinearField MovingObstacle::curvature(const Vec2& position, double lambda) const {
   const Seen at = seen(position, lambda);
   return moved(at_rest_->curvature(at.position, 0.0), at);

@@ -42,6 +42,8 @@ class MovingObstacle final : public Obstacle {
   LinearField curvature(const Vec2& position, double lambda) const override;
   double curvature_second(const Vec2& position, double lambda) const override;
   double along(const Vec2& position, double lambda) const override;
+  QuadraticField arc_length(const Vec2& position, double lambda) const override;
+  double round_length() const override { return at_rest_->round_length(); }
   const std::vector<double>& knots() const override { return at_rest_->knots(); }
   bool is_smooth() const override { return at_rest_->is_smooth(); }
   double period() const override { return at_rest_->period(); }

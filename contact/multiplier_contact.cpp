@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 
 #include "contact/passing.hpp"
 #include "contact/wall_kink.hpp"
@@ -63,6 +64,9 @@ MultiplierContact::MultiplierContact(const Equations& inner, std::vector<Candida
     if (law.method == ContactLaw::Method::augmented) springs.r = k;
     springs_.push_back(springs);
   }
+  const auto rough = [](const Candidate& candidate) { return candidate.friction() > 0.0; };
+  if (std::any_of(candidates_.begin(), candidates_.end(), rough))
+    rest_friction_ = std::make_shared<const FrictionLayout>(std::vector<FrictionLayout::Contact>(candidates_.size()));
 }
 
 // Whether candidate j is closed and its force an unknown: of two that are opposite the first has that of both.
@@ -79,14 +83,18 @@ void MultiplierContact::for_each_force(const ActiveSet& active_set, const Visit&
     if (has_force(active_set, j)) visit(j, k++);
 }
 
-Index MultiplierContact::multiplier_count(const ActiveSet& active_set) const {
+Index MultiplierContact::force_count(const ActiveSet& active_set) const {
   Index count = 0;
   for_each_force(active_set, [&](std::size_t, Index) { ++count; });
   return count;
 }
 
+Index MultiplierContact::multiplier_count(const ActiveSet& active_set) const {
+  return force_count(active_set) + static_cast<Index>(frictions(active_set).size());
+}
+
 ActiveSet MultiplierContact::open_active_set() const {
-  ActiveSet active_set(candidates_.size(), 0);
+  ActiveSet active_set(candidates_.size(), 0, rest_friction_);
   for (std::size_t j = 0; j < candidates_.size(); ++j)
     if (candidates_[j].opposite()) active_set[j] = 1;
   return active_set;
@@ -105,6 +113,16 @@ void MultiplierContact::residual(const State& state, Eigen::Ref<Vector> F) const
     for (std::size_t i = 0; i < unknowns.size(); ++i) F[unknowns[i]] -= t * gap.gradient[static_cast<Index>(i)];
     F[n + k] = -gap.value - springs_[j].c * p;
   });
+  for (const Friction& friction : frictions(state.active_set)) {
+    const Candidate& candidate = candidates_[friction.contact];
+    const auto& unknowns = candidate.point().unknowns();
+    const double T = state.x[friction.T], held = friction.held(state.x);
+    Gap place;
+    candidate.place(state, held, place);
+    for (std::size_t i = 0; i < unknowns.size(); ++i) F[unknowns[i]] -= T * place.gradient[static_cast<Index>(i)];
+    F[friction.T] = held - place.value;
+    if (friction.w) F[*friction.w] = T + slip_sense(friction.history.mode) * candidate.friction() * state.x[friction.p];
+  }
 }
 
 void MultiplierContact::linearize(const State& state, Linearization& out) const {
@@ -114,7 +132,7 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
   inner_.linearize(inner_at, inner);
   if (!out.pattern_of || *out.pattern_of != state.active_set) lay_out(state, out);
 
-  const Index n = inner_at.x.size(), m = out.K.cols() - n;
+  const Index n = inner_at.x.size(), m = state.x.size() - n;
   out.F.resize(n + m);
   out.F_lambda.resize(n + m);
   out.F.head(n) = inner.F;
@@ -145,6 +163,49 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
       }
     }
   });
+  if (has_friction()) add_friction(state, out);
+}
+
+// ∂F/∂x = [K B; C]: B has the held places w in the rows of σ, C the laws of slip.
+void MultiplierContact::add_friction(const State& state, Linearization& out) const {
+  const Index border = state.x.size() - out.K.cols();
+  out.B = Matrix::Zero(out.K.cols(), border);
+  out.C = LongRows::Zero(border, state.x.size());
+  out.border_rates = Vector::Zero(border);  // T truly holds
+  out.holding.clear();
+  out.slip_senses.resize(border);
+  for (const Friction& friction : frictions(state.active_set)) {
+    const Candidate& candidate = candidates_[friction.contact];
+    const auto& unknowns = candidate.point().unknowns();
+    const double T = state.x[friction.T], held = friction.held(state.x);
+    Gap place;
+    candidate.place(state, held, place);
+    out.F[friction.T] = held - place.value;
+    out.F_lambda[friction.T] = -place.rate;
+    entry(out.K, friction.T, friction.T) = 0.0;
+    for (Index a = 0; a < static_cast<Index>(unknowns.size()); ++a) {
+      const Index column = unknowns[static_cast<std::size_t>(a)];
+      out.F[column] -= T * place.gradient[a];
+      out.F_lambda[column] -= T * place.gradient_rate[a];
+      entry(out.K, friction.T, column) = -place.gradient[a];
+      for (Index b = 0; b < static_cast<Index>(unknowns.size()); ++b) {
+        const Index row = unknowns[static_cast<std::size_t>(b)];
+        const double stiffness = -T * place.hessian(b, a);
+        if (row < column || stiffness == 0.0) continue;
+        entry(out.K, row, column) += stiffness;
+        out.ground.push_back({.row = row, .column = column, .stiffness = stiffness});
+      }
+    }
+    if (!friction.w) continue;
+    const Index k = *friction.w - out.K.cols();
+    const double of_p = slip_sense(friction.history.mode) * candidate.friction();
+    out.F[*friction.w] = T + of_p * state.x[friction.p];
+    out.B(friction.T, k) = 1.0;
+    out.C(k, friction.T) = 1.0;
+    out.C(k, friction.p) = of_p;
+    out.holding.push_back(friction.T);
+    out.slip_senses[k] = slip_sense(friction.history.mode);
+  }
 }
 
 void MultiplierContact::lay_out(const State& state, Linearization& out) const {
@@ -152,6 +213,10 @@ void MultiplierContact::lay_out(const State& state, Linearization& out) const {
   for_each_force(state.active_set, [&](std::size_t j, Index k) {
     for (const Index unknown : candidates_[j].point().unknowns()) entries.push_back({.row = k, .column = unknown});
   });
+  const Index n = inner_.size({});
+  for (const Friction& friction : frictions(state.active_set))
+    for (const Index unknown : candidates_[friction.contact].point().unknowns())
+      entries.push_back({.row = friction.T - n, .column = unknown});
   out.K = with_rows_behind(out.inner->K, entries, multiplier_count(state.active_set));
   out.translation_free = out.inner->translation_free;
   if (!out.translation_free.empty()) out.translation_free.resize(static_cast<std::size_t>(out.K.cols()), false);
@@ -183,18 +248,26 @@ Vector MultiplierContact::weights(const ActiveSet& active_set) const {
 }
 
 Vector MultiplierContact::guards(const State& state) const {
-  Vector guards = Vector::Constant(contact_count(), out_of_reach);
+  Vector guards = Vector::Constant(guard_count(state.active_set), out_of_reach);
   const Index n = inner_.size({});
-  for (Index j = 0; j < guards.size(); ++j)
+  for (Index j = 0; j < contact_count(); ++j)
     if (!state.active_set[static_cast<std::size_t>(j)] && !has_opposite(j)) guards[j] = open_guard(j, state);
   for_each_force(state.active_set, [&](std::size_t j, Index k) {
     if (const auto contact = static_cast<Index>(j); !has_opposite(contact))
       guards[contact] = state.x[n + k] / scales_.force;
   });
+  Index bound = contact_count();
+  for (const Friction& friction : frictions(state.active_set)) {
+    if (friction.w) continue;
+    const double most = candidates_[friction.contact].friction() * state.x[friction.p], T = state.x[friction.T];
+    guards[bound++] = (most - T) / scales_.force;
+    guards[bound++] = (most + T) / scales_.force;
+  }
   return guards;
 }
 
 double MultiplierContact::guard(const State& state, Index j) const {
+  if (j >= contact_count()) return guards(state)[j];
   if (has_opposite(j)) return out_of_reach;
   const auto k = multiplier_index(state.active_set, j);
   return k ? state.x[*k] / scales_.force : open_guard(j, state);
@@ -207,6 +280,18 @@ double MultiplierContact::open_guard(Index j, const State& state) const {
 
 Row MultiplierContact::guard_gradient(const State& state, Index j) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  if (j >= contact_count()) {
+    Index bound = contact_count();
+    for (const Friction& friction : frictions(state.active_set)) {
+      if (friction.w) continue;
+      if (j == bound || j == bound + 1) {
+        row.dx[friction.p] = candidates_[friction.contact].friction() / scales_.force;
+        row.dx[friction.T] = (j == bound ? -1.0 : 1.0) / scales_.force;
+      }
+      bound += 2;
+    }
+    return row;
+  }
   if (has_opposite(j)) return row;
   if (const auto k = multiplier_index(state.active_set, j)) {
     row.dx[*k] = 1.0 / scales_.force;
@@ -222,10 +307,11 @@ Row MultiplierContact::guard_gradient(const State& state, Index j) const {
 }
 
 GuardsAlong MultiplierContact::guards_along(const State& state, const Direction& direction) const {
-  GuardsAlong along{.values = guards(state), .rates = Vector::Zero(contact_count())};
+  GuardsAlong along{.values = guards(state), .rates = Vector::Zero(guard_count(state.active_set))};
   Vector& rates = along.rates;
   const Index n = inner_.size({});
-  for (Index j = 0; j < rates.size(); ++j)
+  for (Index j = contact_count(); j < rates.size(); ++j) rates[j] = apply(guard_gradient(state, j), direction);
+  for (Index j = 0; j < contact_count(); ++j)
     if (!state.active_set[static_cast<std::size_t>(j)] && !has_opposite(j))
       rates[j] = candidate(j).gap_rate(state, direction) / scales_.length;
   for_each_force(state.active_set, [&](std::size_t j, Index k) {
@@ -258,7 +344,136 @@ Vector MultiplierContact::transfer(const Vector& x, const ActiveSet& from, const
     source += before ? 1 : 0;
     target += behind ? 1 : 0;
   }
+  if (!has_friction()) return moved;
+  const std::vector<Friction> old = frictions(from);
+  for (const Friction& friction : frictions(to)) {
+    const auto before =
+        std::find_if(old.begin(), old.end(), [&](const Friction& other) { return other.contact == friction.contact; });
+    if (before == old.end()) continue;
+    moved[friction.T] = x[before->T];
+    if (friction.w && before->w) moved[*friction.w] = x[*before->w];
+  }
   return moved;
+}
+
+const FrictionLayout& MultiplierContact::history(const ActiveSet& active_set) const {
+  const auto* layout = dynamic_cast<const FrictionLayout*>(active_set.layout().get());
+  return layout != nullptr ? *layout : *rest_friction_;
+}
+
+std::vector<MultiplierContact::Friction> MultiplierContact::frictions(const ActiveSet& active_set) const {
+  std::vector<Friction> found;
+  if (!has_friction()) return found;
+  const FrictionLayout& layout = history(active_set);
+  const Index n = inner_.size({});
+  for_each_force(active_set, [&](std::size_t j, Index k) {
+    if (candidates_[j].friction() > 0.0) found.push_back({.contact = j, .p = n + k, .history = layout[j]});
+  });
+  Index T = n + force_count(active_set), w = T + static_cast<Index>(found.size());
+  for (Friction& friction : found) {
+    friction.T = T++;
+    if (slips(friction.history.mode)) friction.w = w++;
+  }
+  return found;
+}
+
+ContactMode MultiplierContact::mode(const ActiveSet& active_set, Index j) const {
+  if (!active_set[static_cast<std::size_t>(j)]) return ContactMode::open;
+  return is_rough(j) ? history(active_set)[static_cast<std::size_t>(j)].mode : ContactMode::closed;
+}
+
+std::vector<Index> MultiplierContact::slipping(const ActiveSet& active_set) const {
+  std::vector<Index> contacts;
+  for (const Friction& friction : frictions(active_set))
+    if (friction.w) contacts.push_back(static_cast<Index>(friction.contact));
+  return contacts;
+}
+
+std::vector<Index> MultiplierContact::sticking(const ActiveSet& active_set) const {
+  std::vector<Index> contacts;
+  for (const Friction& friction : frictions(active_set))
+    if (!friction.w) contacts.push_back(static_cast<Index>(friction.contact));
+  return contacts;
+}
+
+std::optional<Index> MultiplierContact::friction_index(const ActiveSet& active_set, Index j) const {
+  for (const Friction& friction : frictions(active_set))
+    if (static_cast<Index>(friction.contact) == j) return friction.T;
+  return std::nullopt;
+}
+
+double MultiplierContact::friction_force(const State& state, Index j) const {
+  const auto T = friction_index(state.active_set, j);
+  return T ? state.x[*T] : 0.0;
+}
+
+double MultiplierContact::slip_rate(const State& state, const Direction& direction, Index j) const {
+  for (const Friction& friction : frictions(state.active_set))
+    if (static_cast<Index>(friction.contact) == j && friction.w)
+      return slip_sense(friction.history.mode) * direction.dx[*friction.w] / scales_.length;
+  return 0.0;
+}
+
+double MultiplierContact::slip(const State& state, Index j) const {
+  for (const Friction& friction : frictions(state.active_set))
+    if (static_cast<Index>(friction.contact) == j) return friction.held(state.x) - friction.history.touched;
+  return 0.0;
+}
+
+Row MultiplierContact::slip_gradient(const State& state, Index j) const {
+  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  for (const Friction& friction : frictions(state.active_set))
+    if (static_cast<Index>(friction.contact) == j && friction.w) row.dx[*friction.w] = 1.0;
+  return row;
+}
+
+std::optional<ModeOfContact> MultiplierContact::beyond_friction_bound(const ActiveSet& active_set, Index guard) const {
+  const Index bound = guard - contact_count();
+  if (bound < 0 || !has_friction()) return std::nullopt;
+  const std::vector<Index> contacts = sticking(active_set);
+  if (bound >= 2 * static_cast<Index>(contacts.size())) return std::nullopt;
+  return ModeOfContact{.contact = contacts[static_cast<std::size_t>(bound / 2)],
+                       .mode = bound % 2 == 0 ? ContactMode::slips_backward : ContactMode::slips_forward};
+}
+
+State MultiplierContact::with_modes(const State& state, std::span<const ModeOfContact> modes) const {
+  std::vector<FrictionLayout::Contact> contacts = history(state.active_set).contacts();
+  std::vector<std::uint8_t> closed(state.active_set.begin(), state.active_set.end());
+  for (std::size_t j = 0; j < contacts.size(); ++j)
+    if (!closed[j]) contacts[j] = {};
+  const std::vector<Friction> before = frictions(state.active_set);
+  std::vector<double> places(contacts.size(), 0.0);
+  for (const auto& [contact, mode] : modes) {
+    const auto j = static_cast<std::size_t>(contact);
+    FrictionLayout::Contact& history = contacts[j];
+    closed[j] = mode == ContactMode::open ? 0 : 1;
+    if (mode == ContactMode::open || !is_rough(contact)) {
+      history = {};
+      continue;
+    }
+    const auto known = std::find_if(before.begin(), before.end(), [&](const Friction& f) { return f.contact == j; });
+    Gap place;
+    candidates_[j].place(state, known != before.end() ? known->held(state.x) : 0.0, place);
+    places[j] = place.value;
+    if (history.mode == ContactMode::open) history.touched = place.value;
+    if (mode == ContactMode::sticks && history.mode != ContactMode::sticks) history.anchor = place.value;
+    history.mode = mode;
+  }
+  ActiveSet changed(closed.size(), 0, std::make_shared<const FrictionLayout>(std::move(contacts)));
+  for (std::size_t j = 0; j < closed.size(); ++j) changed[j] = closed[j];
+  State next{.x = transfer(state.x, state.active_set, changed), .lambda = state.lambda, .active_set = changed};
+  for (const Friction& friction : frictions(changed)) {
+    const bool slipped = std::any_of(before.begin(), before.end(), [&](const Friction& other) {
+      return other.contact == friction.contact && other.w.has_value();
+    });
+    if (friction.w && !slipped) next.x[*friction.w] = places[friction.contact];
+  }
+  return next;
+}
+
+std::string MultiplierContact::watched_place(const State& state, Index j) const {
+  const auto bound = beyond_friction_bound(state.active_set, j);
+  return words_of(contact(state, bound ? bound->contact : j).label);
 }
 
 StepVerdict MultiplierContact::check(const CheckedStep& step) const {
@@ -330,6 +545,17 @@ ContactPoint MultiplierContact::told(const State& state, std::size_t j, double f
   const Vec2 normal = candidate.normal(state);
   contact.place -= candidate.obstacle().half_height() * normal;
   contact.force_vector = force * normal;
+  if (!has_friction()) return contact;
+  const std::vector<Friction> all = frictions(state.active_set);
+  const auto friction = std::find_if(all.begin(), all.end(), [j](const Friction& other) { return other.contact == j; });
+  if (friction == all.end()) return contact;
+  contact.friction = FrictionOfContact{.mode = friction->history.mode,
+                                       .force = state.x[friction->T],
+                                       .coefficient = candidate.friction(),
+                                       .slip = friction->held(state.x) - friction->history.touched,
+                                       .tangent = candidate.tangent(state)};
+  contact.force_vector += contact.friction->force * contact.friction->tangent;
+  if (!friction->w) contact.friction->anchor = contact.place.x();
   return contact;
 }
 
@@ -352,10 +578,40 @@ std::vector<ContactPoint> MultiplierContact::closed_contacts(const State& state)
   return contacts;
 }
 
-// Of one contact t ∇g, at the point that touches.
+namespace {
+
+// What a force t along the gradient of a field of the obstacle, at the point that touches, adds to an action. It
+// changes as t ∇f, of which t changes by `of_t`, and the place by `velocity`.
+struct ForceAlong {
+  const QuadraticField& f;
+  double t;
+  Vec2 arm;
+
+  void add_rate(double of_t, const Vec2& velocity, const Vec2& of_gradient, WallAction& action,
+                const std::function<double&(Row&)>& to) const {
+    const Vec2 along(f.x, f.z);
+    const Eigen::Matrix2d bent{{f.xx, f.xz}, {f.xz, f.zz}};
+    const Vec2 rate = of_t * along + t * (bent * velocity + of_gradient);
+    to(action.gradient[0]) += rate.x();
+    to(action.gradient[1]) += rate.y();
+    to(action.gradient[2]) += cross(arm, rate) + cross(velocity, t * along);
+  }
+
+  void add_value(WallAction& action) const {
+    const Vec2 force = t * Vec2(f.x, f.z);
+    action.value[0] += force.x();
+    action.value[1] += force.y();
+    action.value[2] += cross(arm, force);
+  }
+};
+
+}  // namespace
+
+// Of one contact t ∇g + T ∇σ, at the point that touches.
 WallAction MultiplierContact::wall_action(const State& state, const ContactsOfWall& of, const Vec2& about) const {
   WallAction action(state.x.size());
   const Index n = inner_.size({});
+  const std::vector<Friction> all = frictions(state.active_set);
   for_each_force(state.active_set, [&](std::size_t j, Index k) {
     const Candidate& contact = candidates_[j];
     const double p = state.x[n + k], r = springs_[j].r;
@@ -364,29 +620,26 @@ WallAction MultiplierContact::wall_action(const State& state, const ContactsOfWa
     if (label.wall != of.wall || !of.includes(label.member, label.fraction)) return;
     PointKinematics at;
     contact.point().kinematics(state, at);
-    const QuadraticField g = contact.obstacle().gap(at.position, state.lambda);
-    const Vec2 normal(g.x, g.z), arm = at.position - about;
-    const double t = p - r * g.value;
-    Eigen::Matrix2d bent;
-    bent << g.xx, g.xz, g.xz, g.zz;
-    // The force changes as t ∇g, of which t changes by `of_t`, and the place by `velocity`.
-    const auto add = [&](double of_t, const Vec2& velocity, const Vec2& of_normal, const auto& to) {
-      const Vec2 rate = of_t * normal + t * (bent * velocity + of_normal);
-      to(action.gradient[0]) += rate.x();
-      to(action.gradient[1]) += rate.y();
-      to(action.gradient[2]) += cross(arm, rate) + cross(velocity, t * normal);
-    };
-    action.value[0] += t * normal.x();
-    action.value[1] += t * normal.y();
-    action.value[2] += cross(arm, t * normal);
-    add(1.0, Vec2::Zero(), Vec2::Zero(), [&](Row& row) -> double& { return row.dx[n + k]; });
     const auto& unknowns = contact.point().unknowns();
-    for (std::size_t i = 0; i < unknowns.size(); ++i) {
-      const Vec2 velocity = at.jacobian.col(static_cast<Index>(i));
-      add(-r * normal.dot(velocity), velocity, Vec2::Zero(), [&](Row& row) -> double& { return row.dx[unknowns[i]]; });
-    }
-    add(-r * (g.rate + normal.dot(at.rate)), at.rate, Vec2(g.x_rate, g.z_rate),
-        [](Row& row) -> double& { return row.dlambda; });
+    // `r`: by which t falls with the field's own value; `number` of t among the unknowns.
+    const auto add = [&](const QuadraticField& f, double t, double stiffness, Index number) {
+      const ForceAlong force{.f = f, .t = t, .arm = at.position - about};
+      const Vec2 along(f.x, f.z);
+      force.add_value(action);
+      force.add_rate(1.0, Vec2::Zero(), Vec2::Zero(), action, [&](Row& row) -> double& { return row.dx[number]; });
+      for (std::size_t i = 0; i < unknowns.size(); ++i) {
+        const Vec2 velocity = at.jacobian.col(static_cast<Index>(i));
+        force.add_rate(-stiffness * along.dot(velocity), velocity, Vec2::Zero(), action,
+                       [&](Row& row) -> double& { return row.dx[unknowns[i]]; });
+      }
+      force.add_rate(-stiffness * (f.rate + along.dot(at.rate)), at.rate, Vec2(f.x_rate, f.z_rate), action,
+                     [](Row& row) -> double& { return row.dlambda; });
+    };
+    const QuadraticField g = contact.obstacle().gap(at.position, state.lambda);
+    add(g, p - r * g.value, r, n + k);
+    for (const Friction& friction : all)
+      if (friction.contact == j)
+        add(contact.place_field(at.position, state.lambda), state.x[friction.T], 0.0, friction.T);
   });
   return action;
 }

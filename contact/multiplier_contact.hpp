@@ -5,6 +5,7 @@
 #include "contact/candidate.hpp"
 #include "contact/contact_point.hpp"
 #include "contact/contact_scales.hpp"
+#include "contact/friction_layout.hpp"
 #include "core/system.hpp"
 
 namespace arcwall {
@@ -32,6 +33,13 @@ struct ContactLaw {
 /// Two candidates that are opposite to each other (Candidate::opposite) are one contact that holds in both senses: both
 /// are closed on every active set of a path, and the first of them has the force of both, of either sign, without a
 /// guard.
+///
+/// A contact with friction holds its place σ on the wall, too: T is the multiplier of that, and w where it is held.
+///
+///     F_inner(x, λ) − Σ t ∇g − Σ T ∇σ = 0,   w − σ = 0,   w = w_a (sticks),   T + ε μ p = 0 (slips, ε = ±1 its sense)
+///
+/// Unknowns: x, p, T, then the w of what slips, which are a border of K: its column is not its row. The guards behind
+/// those of the contacts are (μ p − T, μ p + T) of each contact that sticks, in their order.
 class MultiplierContact final : public System, public ContactQuery {
  public:
   /// `inner` must outlive this. Methods other than `rigid` need candidates with tributary lengths. Candidates whose
@@ -39,7 +47,9 @@ class MultiplierContact final : public System, public ContactQuery {
   MultiplierContact(const Equations& inner, std::vector<Candidate> candidates, const ContactScales& scales,
                     const ContactLaw& law = {});
 
-  Index size(const ActiveSet& active_set) const override { return inner_.size({}) + multiplier_count(active_set); }
+  Index size(const ActiveSet& active_set) const override {
+    return inner_.size({}) + multiplier_count(active_set) + static_cast<Index>(slipping(active_set).size());
+  }
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
@@ -53,10 +63,12 @@ class MultiplierContact final : public System, public ContactQuery {
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
   GuardsAlong guards_along(const State& state, const Direction& direction) const override;
-  std::string watched_place(const State& state, Index j) const override { return words_of(contact(state, j).label); }
+  std::string watched_place(const State& state, Index j) const override;
   double guard(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
-  Index guard_count(const ActiveSet&) const override { return contact_count(); }
+  Index guard_count(const ActiveSet& active_set) const override {
+    return contact_count() + 2 * static_cast<Index>(sticking(active_set).size());
+  }
   double compliance(const ActiveSet&, Index j) const override {
     return springs_at(j).c * scales_.force / scales_.length;
   }
@@ -67,6 +79,25 @@ class MultiplierContact final : public System, public ContactQuery {
   StepVerdict check(const CheckedStep& step) const override;
   std::optional<PathKink> kink_between(const State& from, const State& to) const override;
 
+  bool has_friction() const override { return rest_friction_ != nullptr; }
+  bool is_rough(Index j) const override { return candidate(j).friction() > 0.0; }
+  ContactMode mode(const ActiveSet& active_set, Index j) const override;
+  std::vector<Index> slipping(const ActiveSet& active_set) const override;
+  double slip_rate(const State& state, const Direction& direction, Index j) const override;
+  double friction_force(const State& state, Index j) const override;
+  std::optional<ModeOfContact> beyond_friction_bound(const ActiveSet& active_set, Index guard) const override;
+  State with_modes(const State& state, std::span<const ModeOfContact> modes) const override;
+
+  /// The closed contacts that stick by friction.
+  std::vector<Index> sticking(const ActiveSet& active_set) const;
+
+  /// The index in x of the friction force of a closed contact with friction; empty of others.
+  std::optional<Index> friction_index(const ActiveSet& active_set, Index j) const;
+
+  /// How far a closed contact with friction has slipped along the obstacle since it closed [length].
+  double slip(const State& state, Index j) const;
+  Row slip_gradient(const State& state, Index j) const;
+
   const Candidate& candidate(Index j) const { return candidates_[static_cast<std::size_t>(j)]; }
   const ContactScales& scales() const { return scales_; }
 
@@ -76,6 +107,20 @@ class MultiplierContact final : public System, public ContactQuery {
   WallAction wall_action(const State& state, const ContactsOfWall& of, const Vec2& about) const override;
 
  private:
+  // A closed contact with friction: the numbers of its p, T and w in x, the last empty where it sticks.
+  struct Friction {
+    std::size_t contact = 0;
+    Index p = 0, T = 0;
+    std::optional<Index> w{};
+    FrictionLayout::Contact history{};
+
+    double held(const Vector& x) const { return w ? x[*w] : history.anchor; }
+  };
+  std::vector<Friction> frictions(const ActiveSet& active_set) const;
+  const FrictionLayout& history(const ActiveSet& active_set) const;
+  Index force_count(const ActiveSet& active_set) const;
+  void add_friction(const State& state, Linearization& out) const;
+
   State inner_state(const State& state) const {
     return {.x = state.x.head(inner_.size({})), .lambda = state.lambda, .active_set = {}};
   }
@@ -100,6 +145,7 @@ class MultiplierContact final : public System, public ContactQuery {
   std::vector<Candidate> held_;  // whose points do not move but by λ
   ContactScales scales_;
   std::vector<Springs> springs_;
+  std::shared_ptr<const FrictionLayout> rest_friction_{};  // of open contacts; null where none has friction
 };
 
 }  // namespace arcwall

@@ -86,6 +86,14 @@ class Obstacle {
   /// A coordinate along the surface of what a position faces: continuous, and it goes on beyond the surface's ends.
   virtual double along(const Vec2& position, double lambda) const = 0;
 
+  /// The arc length along the surface of the place that a position faces [length], in the direction in which the
+  /// surface runs: where the gap vanishes its gradient is the unit tangent, times the length of the outline over that
+  /// of the surface where that is kept off an outline. Only where faces().
+  virtual QuadraticField arc_length(const Vec2& position, double lambda) const = 0;
+
+  /// The length of a closed surface, after which arc_length() begins again; 0 of others [length].
+  virtual double round_length() const { return 0.0; }
+
   /// Such coordinates, ascending, between which the surface turns by a small angle: where it is to be looked at so that
   /// nothing of it is missed, however small it is. The first and the last are its ends, infinite where it goes on.
   /// Empty: it is straight and goes on.

@@ -19,6 +19,7 @@ class HalfPlaneOutline final : public Outline {
     const Vec2 arm = position - point_;
     return {.distance = perp(tangent_).dot(arm), .tangent = tangent_, .along = tangent_.dot(arm)};
   }
+  double length_to(double along) const override { return along; }
   double sharpest_hollow() const override { return 0.0; }
 
   std::vector<Vec2> points(double reach) const override {
@@ -55,6 +56,7 @@ class CircleOutline final : public Outline {
   }
   bool is_smooth() const override { return true; }
   double period() const override { return 2.0 * pi; }
+  double length_to(double along) const override { return radius_ * along; }
   double sharpest_hollow() const override { return sign_ < 0.0 ? 1.0 / radius_ : 0.0; }
   std::optional<Vec2> core() const override { return sign_ > 0.0 ? std::optional(centre_) : std::nullopt; }
 
@@ -141,6 +143,26 @@ class OutlineObstacle final : public Obstacle {
   }
 
   double along(const Vec2& position, double) const override { return outline_->foot(position).along; }
+
+  // With w = 1/(1 − κ d) for the curvature κ of the outline: ∇σ = w t, ∇w = w² (d ∇κ + κ n), κ w the curvature of
+  // the parallel curve.
+  QuadraticField arc_length(const Vec2& position, double) const override {
+    const OutlineFoot at = outline_->foot(position);
+    const Vec2 n = perp(at.tangent), t = at.tangent;
+    const double w = 1.0 + at.curvature * at.distance;
+    const Vec2 w_slope = at.distance * at.curvature_slope * t + w * at.curvature * n;
+    return {.value = outline_->length_to(at.along),
+            .x = w * t.x(),
+            .z = w * t.y(),
+            .xx = t.x() * w_slope.x() + w * at.curvature * n.x() * t.x(),
+            .xz = t.x() * w_slope.y() + w * at.curvature * n.x() * t.y(),
+            .zz = t.y() * w_slope.y() + w * at.curvature * n.y() * t.y()};
+  }
+  double round_length() const override {
+    const double period = outline_->period();
+    return period > 0.0 ? outline_->length_to(knots_.front() + period) - outline_->length_to(knots_.front()) : 0.0;
+  }
+
   const std::vector<double>& knots() const override { return knots_; }
   bool is_smooth() const override { return outline_->is_smooth(); }
   double period() const override { return outline_->period(); }

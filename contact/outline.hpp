@@ -35,6 +35,9 @@ class Outline {
   virtual bool is_smooth() const { return false; }
   virtual double period() const { return 0.0; }
 
+  /// The length of the outline from its beginning to a coordinate along it [length].
+  virtual double length_to(double along) const = 0;
+
   /// Obstacle::curvature_rate_jumps().
   virtual std::vector<CurvatureRateJump> curvature_rate_jumps() const { return {}; }
 

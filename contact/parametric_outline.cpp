@@ -3,6 +3,7 @@
 #include <tuple>
 #include <utility>
 
+#include "contact/gauss_points.hpp"
 #include "contact/outline.hpp"
 #include "core/cubic_spline.hpp"
 
@@ -62,6 +63,12 @@ class ParametricOutline : public Outline {
     return is_closed_ ? std::vector(knots_.begin(), knots_.end() - 1) : knots_;
   }
   double period() const final { return is_closed_ ? knots_.back() - knots_.front() : 0.0; }
+  double length_to(double along) const final {
+    const auto next = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, along);
+    const auto i = static_cast<std::size_t>(next - knots_.begin()) - 1;
+    const double beyond = along - std::clamp(along, knots_.front(), knots_.back());
+    return length_before_[i] + length_between(knots_[i], along - beyond) + beyond * at_knots_[i + 1].first.norm();
+  }
   double sharpest_hollow() const final { return sharpest_; }
   std::optional<Vec2> core() const final { return core_; }
 
@@ -94,10 +101,22 @@ class ParametricOutline : public Outline {
       constexpr double above_the_polygon = 1.01;
       lengths_.push_back(above_the_polygon * length);
     }
+    length_before_.push_back(0.0);
+    for (std::size_t i = 0; i + 1 < knots_.size(); ++i)
+      length_before_.push_back(length_before_.back() + length_between(knots_[i], knots_[i + 1]));
     if (!is_closed_ || runs_clockwise()) core_ = deepest_place(*this, points(0.0));
   }
 
  private:
+  // By Gauss's rule of eight points: between two knots the curve turns little.
+  double length_between(double from, double to) const {
+    double length = 0.0;
+    for (const auto& [place, weight] : gauss_points)
+      for (const double sign : {-1.0, 1.0})
+        length += weight * at(0.5 * (from + to) + sign * place * 0.5 * (to - from)).first.norm();
+    return 0.5 * (to - from) * length;
+  }
+
   // Then the body is outside.
   bool runs_clockwise() const {
     std::vector<Vec2> polygon;
@@ -165,7 +184,7 @@ class ParametricOutline : public Outline {
             .from_end = arm.norm()};
   }
 
-  std::vector<double> knots_{}, lengths_{};
+  std::vector<double> knots_{}, lengths_{}, length_before_{};
   std::vector<OnCurve> at_knots_{};
   bool is_closed_ = false;
   double sharpest_ = 0.0;

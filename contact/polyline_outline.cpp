@@ -109,6 +109,14 @@ class PolylineOutline final : public Outline {
   }
   double period() const override { return is_closed_ ? end_ : 0.0; }
 
+  // Of arcs the coordinate runs faster or slower than the length.
+  double length_to(double along) const override {
+    double length = along;
+    for (const Rounding& arc : roundings_)
+      length -= (arc.per_angle - arc.radius) * std::clamp((along - arc.along) / arc.per_angle, 0.0, std::abs(arc.turn));
+    return length;
+  }
+
   std::vector<SharpCorner> sharp_corners() const override {
     std::vector<SharpCorner> corners;
     for (const Rounding& arc : roundings_) {

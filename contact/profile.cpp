@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/gauss_points.hpp"
 #include "core/cubic_spline.hpp"
 
 namespace arcwall {
@@ -16,6 +17,7 @@ class LineProfile final : public Profile {
  public:
   LineProfile(double z, double slope) : z_(z), slope_(slope) {}
   Height at(double x) const override { return {z_ + slope_ * x, slope_, 0.0, 0.0, 0.0}; }
+  double length_to(double x) const override { return std::hypot(1.0, slope_) * x; }
 
  private:
   double z_, slope_;
@@ -27,6 +29,12 @@ class ParabolaProfile final : public Profile {
   Height at(double x) const override {
     const double d = x - apex_.x();
     return {apex_.y() + 0.5 * curvature_ * d * d, curvature_ * d, curvature_, 0.0, 0.0};
+  }
+
+  // ½ (d √(1 + k² d²) + arsinh(k d)/k)
+  double length_to(double x) const override {
+    const double d = x - apex_.x(), slope = curvature_ * d;
+    return curvature_ == 0.0 ? d : 0.5 * (d * std::sqrt(1.0 + slope * slope) + std::asinh(slope) / curvature_);
   }
 
   std::vector<double> knots() const override {
@@ -58,6 +66,8 @@ class CircleProfile final : public Profile {
             -3.0 * sign_ * r2 * (r2 + 4.0 * d * d) / y7};
   }
 
+  double length_to(double x) const override { return radius_ * std::asin((x - centre_.x()) / radius_); }
+
   // The arc ends where its normal is level to 1e-6: there the height says nothing about the distance any more.
   bool covers(double x) const override { return std::abs(x - centre_.x()) < radius_ * (1.0 - 1e-6); }
 
@@ -86,6 +96,18 @@ class SplineProfile final : public Profile {
     return {v[0], v[1], v[2], v[3], 0.0};
   }
   bool covers(double x) const override { return x >= spline_.first() && x <= spline_.last(); }
+
+  // By Gauss's rule of eight points on parts of each cubic.
+  double length_to(double x) const override {
+    constexpr int parts = 8;
+    double length = 0.0;
+    const std::vector<double>& given = spline_.knots();
+    for (std::size_t i = 0; i + 1 < given.size() && given[i] < x; ++i) {
+      const double step = (std::min(x, given[i + 1]) - given[i]) / parts;
+      for (int k = 0; k < parts; ++k) length += length_between(given[i] + k * step, given[i] + (k + 1) * step);
+    }
+    return length;
+  }
   std::pair<double, double> extent() const override { return {spline_.first(), spline_.last()}; }
 
   std::vector<double> knots() const override {
@@ -107,6 +129,14 @@ class SplineProfile final : public Profile {
   }
 
  private:
+  double length_between(double from, double to) const {
+    double length = 0.0;
+    for (const auto& [place, weight] : gauss_points)
+      for (const double sign : {-1.0, 1.0})
+        length += weight * std::hypot(1.0, at(0.5 * (from + to) + sign * place * 0.5 * (to - from)).first);
+    return 0.5 * (to - from) * length;
+  }
+
   CubicSpline spline_;
 };
 
@@ -175,6 +205,23 @@ class ProfileObstacle final : public Obstacle {
   }
 
   double along(const Vec2& position, double) const override { return position.x(); }
+
+  // σ = S(x) + s d with S the length of the surface, s = ψ′ c its slope's sine: of d = 0 the gradient is (c, s).
+  //
+  //   σ_x = 1/c + s′ d − s ψ′,  σ_z = s,  σ_xx = (1/c)′ + s″ d − 2 s′ ψ′ − s ψ″,  σ_xz = s′
+  //   s′ = ψ″ c³,  s″ = ψ‴ c³ − 3 ψ′ ψ″² c⁵,  (1/c)′ = ψ′ ψ″ c
+  QuadraticField arc_length(const Vec2& position, double) const override {
+    const Height psi = profile_->at(position.x());
+    const double c = cosine(psi.first), c3 = c * c * c, s = psi.first * c, d = position.y() - psi.value;
+    const double s1 = psi.second * c3;
+    const double s2 = psi.third * c3 - 3.0 * psi.first * psi.second * psi.second * c3 * c * c;
+    return {.value = profile_->length_to(position.x()) + s * d,
+            .x = 1.0 / c + s1 * d - s * psi.first,
+            .z = s,
+            .xx = psi.first * psi.second * c + s2 * d - 2.0 * s1 * psi.first - s * psi.second,
+            .xz = s1};
+  }
+
   const std::vector<double>& knots() const override { return knots_; }
   bool is_smooth() const override { return profile_->is_smooth(); }
 

@@ -21,6 +21,9 @@ class Profile {
   /// ψ, ψ′, ψ″, ψ‴, ψ⁗; defined where covers(x). Where ψ‴ jumps ψ⁗ leaves the jump out.
   virtual Height at(double x) const = 0;
 
+  /// The arc length of the surface from a place of it to this x.
+  virtual double length_to(double x) const = 0;
+
   /// Whether there is a surface at this x.
   virtual bool covers(double) const { return true; }
 

@@ -7,6 +7,7 @@
 
 #include "continuation/corners/corner.hpp"
 #include "continuation/corners/first_point.hpp"
+#include "continuation/corners/friction_corner.hpp"
 #include "continuation/events/eigenvalue_touch.hpp"
 #include "continuation/events/step_events.hpp"
 #include "continuation/events/target_values.hpp"
@@ -121,16 +122,26 @@ Departure leave_smoothly(const TraceTools& tools, const StepOrigin& origin, cons
   return leave;
 }
 
+// The contact whose slip ends at an arc's end, where it is that which ends the arc.
+std::optional<Index> ended_slip(const TraceTools& tools, const ArcEnd& end) {
+  if (!end.event || end.event->what != EventPlace::What::detector) return std::nullopt;
+  const EventDetector& detector = tools.detectors[end.event->which];
+  return detector.kind == EventKind::contact_sticks ? std::optional<Index>(std::stol(detector.label)) : std::nullopt;
+}
+
 // The change of contacts at an arc's end.
 CornerPassed pass_corner(TraceTools& tools, const TracerState& state, const ArcEnd& end,
                          const std::vector<int>& signs) {
   const bool stands = end.length <= tools.options.guard_tolerance;
   Corner corner{.at = end.point,
-                .slack = end.landing->slack,
+                .slack = end.landing ? end.landing->slack : 0.0,
                 .signs = signs,
                 .before = state.from.count_after,
                 .lambda_scale = state.lambda_scale,
                 .without_progress = stands ? state.corners_without_progress + 1 : 0};
+  if (tools.system.has_friction())
+    return turn_friction_corner(tools, std::move(corner),
+                                end.landing ? std::optional(end.landing->guard) : std::nullopt, ended_slip(tools, end));
   const bool at_bound = end.landing->guard >= static_cast<Index>(end.point.state.active_set.size());
   return at_bound ? pass_bound(tools, std::move(corner), end.landing->guard)
                   : turn_corner(tools, std::move(corner), end.landing->guard, state.visited);
@@ -203,9 +214,10 @@ std::optional<CornerPassed> leave_active_set(TraceTools& tools, const TracerStat
                                              ArcEnd& end) {
   std::optional<CornerPassed> passed;
   end.point.count = count_at(tools, origin, end);
-  if (!end.landing) return passed;
+  if (!end.landing && !ended_slip(tools, end)) return passed;
   passed = pass_corner(tools, state, end, signs_behind(tools, origin, end));
   if (passed->end) return passed;
+  if (tools.system.has_friction()) return passed;  // the place stays
   if (const auto value = first_value_between(tools.options.target_values, end.point, passed->ahead().state))
     land_before_active_set_ahead(tools, origin, *value, end, passed);
   return passed;
@@ -221,12 +233,12 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
   if (end.event && end.event->what == EventPlace::What::target_value)
     if (auto bound = bound_at(tools.options.target_values, end.event->which, end.point.state))
       accepted.end = std::move(bound);
-  if (!end.landing && !accepted.end)
+  if (!end.landing && !passed && !accepted.end)
     if (auto known = passed_known_place(tools, origin, end.point)) accepted.end = std::move(known->end);
   if (!state.from.known_end && !state.from.passed_bound)
     accepted.progress = StepProgress{
         .iterations = end.point.iterations, .turn = end.turn, .taken = end.landing || end.event ? end.length : s};
-  const bool smooth = !end.landing && end.length > 0.0 && !state.from.known_end;
+  const bool smooth = !end.landing && !passed && end.length > 0.0 && !state.from.known_end;
   const bool new_contacts = end.landing || state.from.known_end;
   if (passed) {
     accepted.leave.count_after = origin.from.count_after;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "continuation/corners/corner.hpp"
+#include "continuation/corners/friction_corner.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/step/point_on_path.hpp"
 
@@ -53,10 +54,12 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
   decide_count(tools, at);
   std::vector<Event> events;
   const ActiveSet& active_set = at.state.active_set;
-  if (tools.system.guard_count(active_set) > 0 &&
-      !degenerate_contacts(at.guards, active_set, tools.options.guard_tolerance).empty()) {
-    CornerPassed passed =
-        turn_corner(tools, {.at = at, .lambda_scale = state.lambda_scale, .begins_branch = true}, std::nullopt, {});
+  const bool touches = tools.system.guard_count(active_set) > 0 &&
+                       !degenerate_contacts(at.guards, active_set, tools.options.guard_tolerance).empty();
+  if (touches || may_change_at_start(tools, at)) {
+    const Corner corner{.at = at, .lambda_scale = state.lambda_scale, .begins_branch = true};
+    CornerPassed passed = tools.system.has_friction() ? turn_friction_corner(tools, corner, std::nullopt, std::nullopt)
+                                                      : turn_corner(tools, corner, std::nullopt, {});
     begun.end = std::move(passed.end);
     if (begun.end) return begun;
     begun.visit = std::move(passed.visit);
@@ -65,7 +68,7 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
   }
   at.count = tools.counter.count(at.state, at.negative_eigenvalues);
   std::optional<EnteredActiveSet> entered;
-  if (const auto bound = bound_passed_at(at, tools.options.guard_tolerance)) {
+  if (const auto bound = bound_passed_at(at, tools.options.guard_tolerance); bound && !tools.system.has_friction()) {
     CornerPassed passed = pass_bound(tools,
                                      {.at = at,
                                       .slack = -at.guards[*bound],

@@ -194,6 +194,7 @@ void Explorer::stop(const BranchEnd& end) {
 void Explorer::look_at(const Event& event) {
   const BranchPoint& point = *event.branching;
   if (event.unconfirmed) return;
+  if (!system_.slipping(point.state.active_set).empty()) return;  // a mode would have to slip against its friction
   const Metric metric(system_.weights(point.state.active_set), lambda_scale_);
   if (is_known(system_, known_, point, metric)) return;
   known_.push_back({.state = point.state, .branch = current_});

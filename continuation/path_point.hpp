@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "continuation/stability_count.hpp"
+#include "core/contact_mode.hpp"
 #include "core/eigenpairs.hpp"
 #include "core/state.hpp"
 #include "core/transition.hpp"
@@ -37,6 +38,8 @@ enum class EventKind {
   contact_splits,     ///< a contact point or zone becomes two contacts with a free span between
   contact_shrinks,    ///< a contact zone becomes a contact point
   contacts_merge,     ///< two contacts become one
+  contact_slips,      ///< a contact that stuck by friction begins to slip
+  contact_sticks,     ///< the slip of a contact ends
   contact_transfers,  ///< contact moves between the end and the inside of a member, or over a joint
   limit_point,
   contact_limit_point,
@@ -84,6 +87,15 @@ struct BranchPoint {
   bool ends_its_own_branch() const { return type == BranchType::pitchfork && !ways.empty(); }
 };
 
+/// Stores an admissible way on from a change of contacts with friction.
+struct FrictionWay {
+  std::vector<ModeOfContact> modes{};  ///< of the contacts that may change
+  int lambda_sense = 0;                ///< sign of the rate of λ
+  double dissipation = 0.0;            ///< power of friction along the unit tangent, ≥ 0 [force·length]
+  std::optional<Index> unstable{};
+  bool taken = false;
+};
+
 /// Stores a located event of a path.
 struct Event {
   EventKind kind = EventKind::start;
@@ -99,6 +111,8 @@ struct Event {
   std::optional<double> value{};                             ///< that is passed at a value crossing
   std::optional<Continuum> continuum{};            ///< equilibrium family of which the path follows one from here on
   std::shared_ptr<const BranchPoint> branching{};  ///< of branch points; else null
+  std::vector<FrictionWay> friction_ways{};        ///< all that were found, at a change of contacts with friction
+  bool all_ways_known = false;                     ///< every combination of modes was tried
 };
 
 /// Reasons of the end of a branch.
@@ -120,6 +134,7 @@ enum class EndReason {
   equilibrium_family,  ///< a family of equilibria with one load and energy follows
   not_modelled,        ///< a contact configuration follows that is not modelled
   rigid_body_motion,   ///< an unconstrained body moved away
+  jammed,              ///< no motion in which friction opposes slip continues the path
   unstable,            ///< the structure lost its stability, and no state after a jump is known
 };
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/algebra/sliding_stability.hpp"
+#include "core/algebra/slip_stiffness.hpp"
 #include "core/algebra/test_function.hpp"
 
 namespace arcwall {
@@ -19,6 +20,8 @@ std::optional<Index> negative_eigenvalues(const Equations& system, const State& 
   }
   const auto inertia = solver.inner().inertia();
   if (!inertia || !solver.inner_is_regular()) return std::nullopt;
+  if (now.slip_senses.size() > 0)
+    return inertia->negative - multipliers + negative_real_eigenvalues(slip_stiffness(solver, now));
   const auto let_go = sliding_resistance(solver, now).negative();
   return let_go ? std::optional(inertia->negative - multipliers + *let_go) : std::nullopt;
 }
@@ -49,8 +52,31 @@ StabilityCount StabilityCounter::count(const State& state, std::optional<Index> 
   StabilityCount count{.unstable = unstable};
   if (unstable && *unstable == 0) count.stability = Stability::stable;
   if (negative_held && *negative_held > 0) count.stability = Stability::unstable;
+  if (slipping(strong) > 1) count.stability = stability_of_slips(system_.with_active_set(state, strong));
   if (!system_.leaves_stability_open(state.active_set)) return count;
   return {.stability = count.stability == Stability::unstable ? Stability::unstable : Stability::undecided};
+}
+
+Index StabilityCounter::slipping(const ActiveSet& active_set) const {
+  return static_cast<Index>(system_.slipping(active_set).size());
+}
+
+// With one slip the count tells: it goes on by itself where D < 0. With more it may be that no slip starts though D has
+// a negative eigenvalue, or that there is none and a slip with the inertia of the structure releases energy.
+Stability StabilityCounter::stability_of_slips(const State& state) {
+  if (own_.linearize_at(state) != FactorStatus::ok || !own_.solver().inner_is_regular()) return Stability::undecided;
+  const auto inertia = own_.solver().inner().inertia();
+  if (!inertia) return Stability::undecided;
+  if (inertia->negative > system_.multiplier_count(state.active_set)) return Stability::unstable;
+  switch (slip_stability(slip_stiffness(own_.solver(), own_.equations()))) {
+    case SlipStability::stable:
+      return Stability::stable;
+    case SlipStability::unstable:
+      return Stability::unstable;
+    case SlipStability::undecided:
+      break;
+  }
+  return Stability::undecided;
 }
 
 std::optional<Index> StabilityCounter::negative_on(const State& state) {

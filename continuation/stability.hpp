@@ -38,6 +38,8 @@ class StabilityCounter {
 
  private:
   std::optional<Index> counted_on(const State& state);
+  Index slipping(const ActiveSet& active_set) const;
+  Stability stability_of_slips(const State& state);
 
   const UnilateralSystem& system_;
   double force_tolerance_;

@@ -7,6 +7,7 @@
 
 #include "continuation/arc_step.hpp"
 #include "continuation/branch_start.hpp"
+#include "continuation/corners/friction_corner.hpp"
 #include "continuation/lambda_scale.hpp"
 #include "continuation/stops.hpp"
 #include "core/text.hpp"
@@ -81,8 +82,9 @@ std::vector<Landing> near_bounds(const PathPoint& at) {
 // Where no step succeeds, as before the end of a stretch whose forces are lost in round-off, a bound that is near is
 // passed early: what lies behind it holds on its own. Empty where nothing does, or is far off.
 std::optional<Accepted> pass_near_bound(TraceTools& tools, const TracerState& state) {
-  constexpr double far = 0.02;                  // of the greatest λ so far
-  if (!state.from.before) return std::nullopt;  // contacts have changed just before: what is near lies behind
+  constexpr double far = 0.02;                           // of the greatest λ so far
+  if (tools.system.has_friction()) return std::nullopt;  // its bounds hold
+  if (!state.from.before) return std::nullopt;           // contacts have changed just before: what is near lies behind
   const double lambda = state.from.point.state.lambda;
   const auto turns = [](const Event& event) { return event.kind == EventKind::contact_limit_point; };
   for (const Landing& bound : near_bounds(state.from.point)) {
@@ -156,11 +158,16 @@ Tracer::Tracer(const System& system, BranchStart start, TraceOptions options, st
 Tracer::~Tracer() = default;
 
 void Tracer::set_detectors() {
-  if (tools_->options.events == EventSearch::none) return;
-  const Metric metric = tools_->metric_on(state_.from.point.state.active_set, state_.lambda_scale);
+  const std::vector<EventDetector> slip_ends = slip_end_detectors(tools_->system);
   auto& detectors = tools_->detectors;
   detectors.clear();
+  if (tools_->options.events == EventSearch::none) {
+    detectors = slip_ends;
+    return;
+  }
+  const Metric metric = tools_->metric_on(state_.from.point.state.active_set, state_.lambda_scale);
   detectors.push_back(limit_point_detector(metric));
+  detectors.insert(detectors.end(), slip_ends.begin(), slip_ends.end());
   for (const Watch& watch : watched_) detectors.push_back(turning_detector(tools_->system, metric, watch));
   const auto& own = tools_->options.detectors;
   detectors.insert(detectors.end(), own.begin(), own.end());

@@ -29,6 +29,9 @@ struct Linearization {
   std::vector<bool> energetic{};           ///< one a column of B: whether its equation is that the energy is stationary
                                            ///< in s_k, but for discretisation: its row of C is then its column of B,
                                            ///< what nothing holds is s_k itself, and y_k says nothing. Empty: none is
+  Vector slip_senses{};                    ///< one a column of B where s_k is the place that a contact with friction is
+                                           ///< held at, and its equation the law of slip: the sense of the slip, 1 or
+                                           ///< −1. Empty: no contact slips
   Vector F_lambda{};                       ///< ∂F/∂λ
   std::vector<bool> translation_free{};    ///< nodes on which no force arises where everything moves parallel, but for
                                            ///< ground terms, by unknowns of K: true for the displacement in x of such

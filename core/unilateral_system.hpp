@@ -75,6 +75,9 @@ class UnilateralSystem : public Equations {
   /// Returns x for another active set of the same layout; new contact forces are zero. Also valid for directions.
   virtual Vector transfer(const Vector& x, const ActiveSet& /*from*/, const ActiveSet& /*to*/) const { return x; }
 
+  /// Returns the contacts that slip on an active set, by friction (System::has_friction()).
+  virtual std::vector<Index> slipping(const ActiveSet&) const { return {}; }
+
   /// Returns true if the second variation vanishes in some directions, so stability is indeterminate. The eigenvalues
   /// then count the other directions.
   virtual bool leaves_stability_open(const ActiveSet&) const { return false; }

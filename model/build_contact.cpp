@@ -1,6 +1,7 @@
 #include "model/build_contact.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -69,6 +70,22 @@ bool changes(const Candidate& candidate, const State& rest) {
   Gap gap;
   candidate.gap(rest, gap);
   return gap.gradient.norm() > least;
+}
+
+// Whether the structure may move a point along a wall, besides across it: else what holds it there bears the friction.
+bool moves_along(const Candidate& candidate, const State& rest) {
+  constexpr double least = 1e-9;  // of the motion
+  if (!candidate.faces_wall(rest)) return true;
+  PointKinematics at;
+  candidate.point().kinematics(rest, at);
+  const Eigen::MatrixXd motions = at.jacobian;
+  return motions.cols() >= 2 && Eigen::JacobiSVD<Eigen::MatrixXd>(motions).singularValues()[1] > least;
+}
+
+bool moves_with_lambda(const Candidate& candidate, const State& rest) {
+  PointKinematics at;
+  candidate.point().kinematics(rest, at);
+  return !at.rate.isZero(0.0);
 }
 
 bool acts_on_axis(const TouchAtRest& touch) { return touch.wall->contact_surface == deck::ContactSurface::axis; }
@@ -381,6 +398,16 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
           if (!movable) {
             held.push_back(std::move(candidate));
             continue;
+          }
+          candidate.set_friction(friction_of(deck, wall, mesh.name));
+          if (candidate.friction() > 0.0 && !moves_along(candidate, rest)) {
+            if (moves_with_lambda(candidate, rest))
+              problems.add(
+                  wall.position, "wall.friction",
+                  fmt::format("a support moves {}:{:.4g} along the wall, and friction would act on the support",
+                              mesh.name, section.fraction),
+                  "leave out the friction of this wall on the member, or move the wall instead");
+            candidate.set_friction(0.0);
           }
           if (std::abs(gap) <= round_off && changes(candidate, rest))
             touches.push_back({.wall = &wall,

@@ -12,6 +12,7 @@
 #include "model/contact_edge.hpp"
 #include "model/deck/key_list.hpp"
 #include "model/deck/words.hpp"
+#include "model/friction_at_wall.hpp"
 #include "model/spring_force.hpp"
 #include "model/wall_force.hpp"
 
@@ -58,6 +59,7 @@ deck::Dimension dimension_of(deck::Component component) {
     case deck::Component::axial_force:
     case deck::Component::force_x:
     case deck::Component::force_z:
+    case deck::Component::friction_force:
       return deck::unit::force;
     case deck::Component::reaction_moment:
     case deck::Component::moment:
@@ -72,6 +74,7 @@ deck::Dimension dimension_of(deck::Component component) {
     case deck::Component::x:
     case deck::Component::z:
     case deck::Component::gap:
+    case deck::Component::slip:
     case deck::Component::contact_start:
     case deck::Component::contact_end:
     case deck::Component::face_above_z:
@@ -210,6 +213,14 @@ std::shared_ptr<const Observable> wall_force(const deck::Deck& deck, const Measu
                                              std::string member, std::optional<double> end) {
   const deck::Wall& wall = *deck::find(deck.walls, monitor.wall);
   if (from.contacts == nullptr) return std::make_shared<ParameterValue>();
+  if (monitor.component == deck::Component::friction_force || monitor.component == deck::Component::slip) {
+    const auto* const at_nodes = dynamic_cast<const MultiplierContact*>(from.contacts);
+    if (at_nodes == nullptr) return std::make_shared<ParameterValue>();
+    ContactsOfWall of{.wall = wall.name, .member = std::move(member), .fraction = end};
+    const bool force = monitor.component == deck::Component::friction_force;
+    return std::make_shared<FrictionAtWall>(*at_nodes, std::move(of),
+                                            force ? FrictionAtWall::What::force : FrictionAtWall::What::slip);
+  }
   const WallForce::What what = monitor.component == deck::Component::force_x   ? WallForce::What::x
                                : monitor.component == deck::Component::force_z ? WallForce::What::z
                                                                                : WallForce::What::moment;
@@ -494,6 +505,7 @@ Watch::Kind kind_of(const MonitorColumn& column, const deck::Deck& deck) {
     case deck::Component::rotation:
     case deck::Component::face_above_z:
     case deck::Component::face_below_z:
+    case deck::Component::slip:
     case deck::Component::gap:
     case deck::Component::contact_start:
     case deck::Component::contact_end:
@@ -507,6 +519,8 @@ Watch::Kind kind_of(const MonitorColumn& column, const deck::Deck& deck) {
       const bool of_wall = monitor != nullptr && !monitor->wall.empty();
       return of_wall ? Watch::Kind::contact_force : Watch::Kind::inner_force;
     }
+    case deck::Component::friction_force:
+      return Watch::Kind::contact_force;
     case deck::Component::reaction_x:
     case deck::Component::reaction_z:
     case deck::Component::reaction_moment:

@@ -93,6 +93,55 @@ bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::
   return false;
 }
 
+void check_friction(const deck::Deck& deck, const Structure& structure, const std::vector<Candidate>& candidates,
+                    bool sliding, DeckProblems& problems) {
+  if (!deck::has_friction(deck)) return;
+  const auto& springs = structure.nodal_terms().law_springs();
+  if (std::any_of(springs.begin(), springs.end(),
+                  [](const NodalTerms::LawSpring& spring) { return !spring.law->kinks().empty(); }))
+    problems.add({}, "spring.law", "friction is not known beside laws of straight pieces",
+                 "write interpolation = \"smooth\" in the law");
+  const auto rough = [](const Candidate& candidate) { return candidate.friction() > 0.0; };
+  if (sliding)
+    problems.add({}, "contact.points", "friction is known for contact at nodes and at free ends alone",
+                 "write points = \"nodes\", or leave it out");
+  if (deck.contact.method != ContactLaw::Method::rigid)
+    problems.add({}, "contact.method", "springs in place of walls have no friction", "write method = \"multiplier\"");
+  if (wants_increments(deck))
+    problems.add(deck.path.position, "path.method", "load increments without iteration know no friction",
+                 "use \"spherical\"");
+  if (std::any_of(candidates.begin(), candidates.end(),
+                  [&](const Candidate& candidate) { return rough(candidate) && candidate.opposite(); }))
+    problems.add({}, "friction", "what two walls hold between them without a gap has no known friction",
+                 "leave a clearance, or leave out the friction of these walls");
+  const auto on_faces = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
+    return rough(candidate) && candidate.obstacle().half_height() > 0.0;
+  });
+  if (on_faces != candidates.end())
+    problems.add(deck::find(deck.walls, on_faces->label().wall)->position, "wall.friction",
+                 "friction on faces that roll on an outline is not known",
+                 "write contact_surface = \"axis\", or use a profile");
+  if (deck.curve)
+    problems.add(
+        {}, "curve",
+        "events of contacts with friction depend on the way that led there, which a curve of events does not know",
+        "leave out [curve]: a sweep over the same key runs a path for each value");
+  if (!deck.path.sensitivity.empty())
+    problems.add(deck.path.position, "path.sensitivity",
+                 "events of contacts with friction depend on the way that led there, whose derivative is not known",
+                 "leave it out, or sweep over the key");
+  if (deck.path.search || !deck.path.search_at.empty())
+    problems.add(deck.path.position, "path.search",
+                 "with friction an equilibrium beside the path has no history, so it says nothing", "leave it out");
+  if (deck.path.branches == BranchPolicy::jump)
+    problems.add(deck.path.position, "path.branches",
+                 "where a structure with friction comes to rest after a jump depends on its motion",
+                 "use \"most-stable\", which follows the path");
+  if (deck.path.branches == BranchPolicy::all)
+    problems.add(deck.path.position, "path.branches", "friction makes every path one of its own history",
+                 "use \"most-stable\" or \"primary\"");
+}
+
 void check_between_nodes(const deck::Deck& deck, const SlidingContact& contact, DeckProblems& problems) {
   const double round_off = 1e-9 * contact.scales().length;
   const auto entered = contact.entered(contact.rest(), round_off);

@@ -25,6 +25,10 @@ bool may_slide(const deck::Deck& deck, const StructureBuilder& builder);
 bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::vector<Candidate>& candidates,
             DeckProblems& problems);
 
+/// Adds what a deck with friction asks for that friction does not know.
+void check_friction(const deck::Deck& deck, const Structure& structure, const std::vector<Candidate>& candidates,
+                    bool sliding, DeckProblems& problems);
+
 /// Whether λ moves a structure.
 bool moves_something(const Structure& structure);
 

@@ -16,6 +16,8 @@ constexpr std::array event_kinds{EventKind::start,
                                  EventKind::contact_shrinks,
                                  EventKind::contacts_merge,
                                  EventKind::contact_transfers,
+                                 EventKind::contact_slips,
+                                 EventKind::contact_sticks,
                                  EventKind::limit_point,
                                  EventKind::contact_limit_point,
                                  EventKind::turning_point,
@@ -40,6 +42,7 @@ constexpr std::array end_reasons{EndReason::stop,
                                  EndReason::equilibrium_family,
                                  EndReason::not_modelled,
                                  EndReason::rigid_body_motion,
+                                 EndReason::jammed,
                                  EndReason::unstable};
 
 template <class List>
@@ -72,6 +75,10 @@ std::string_view to_text(EventKind kind) {
       return "contacts-merge";
     case EventKind::contact_transfers:
       return "contact-transfers";
+    case EventKind::contact_slips:
+      return "contact-slips";
+    case EventKind::contact_sticks:
+      return "contact-sticks";
     case EventKind::limit_point:
       return "limit-point";
     case EventKind::contact_limit_point:
@@ -84,6 +91,23 @@ std::string_view to_text(EventKind kind) {
       return "branch-point";
     case EventKind::user:
       return "user";
+  }
+  assert(false);
+  return {};
+}
+
+std::string_view to_text(ContactMode mode) {
+  switch (mode) {
+    case ContactMode::open:
+      return "open";
+    case ContactMode::closed:
+      return "closed";
+    case ContactMode::sticks:
+      return "stick";
+    case ContactMode::slips_forward:
+      return "slip+";
+    case ContactMode::slips_backward:
+      return "slip-";
   }
   assert(false);
   return {};
@@ -125,6 +149,8 @@ std::string_view to_text(EndReason reason) {
       return "not_modelled";
     case EndReason::rigid_body_motion:
       return "rigid_body_motion";
+    case EndReason::jammed:
+      return "jammed";
     case EndReason::unstable:
       return "unstable";
   }
@@ -174,6 +200,8 @@ bool changes_contact(EventKind kind) {
     case EventKind::contact_splits:
     case EventKind::contact_shrinks:
     case EventKind::contacts_merge:
+    case EventKind::contact_slips:
+    case EventKind::contact_sticks:
     case EventKind::contact_transfers:
       return true;
     case EventKind::start:
@@ -226,6 +254,8 @@ std::string_view explanation(EndReason reason) {
       return "the path reaches a contact configuration that is not modelled";
     case EndReason::rigid_body_motion:
       return "an unconstrained body was moved by more than 20 times the structure's size";
+    case EndReason::jammed:
+      return "no motion in which friction opposes slip continues the path";
     case EndReason::unstable:
       return "the structure lost its stability, and no state after a jump is known";
   }
@@ -266,6 +296,8 @@ std::string_view what_to_try(EndReason reason) {
              "\"penalty\", and check that the loads converge with the number of elements";
     case EndReason::rigid_body_motion:
       return "a support or a wall that restrains it, or [[prescribed]] instead of the load";
+    case EndReason::jammed:
+      return "a stage that drives back, or less friction";
     case EndReason::unstable:
       return "path.branches = \"most-stable\", which follows the path through its unstable part; a small imperfection, "
              "or a wall that stops the motion";

@@ -11,6 +11,9 @@ namespace arcwall {
 /// Returns `contact-closes`, `limit-point`, …
 std::string_view to_text(EventKind kind);
 
+/// Returns `open`, `closed`, `stick`, `slip+` or `slip-`.
+std::string_view to_text(ContactMode mode);
+
 /// Returns `stop`, `min_step`, …
 std::string_view to_text(EndReason reason);
 

@@ -105,6 +105,7 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
   const PinchedPlaces pinched = sliding_structure_ ? pinched_places(*deck_, *sliding_structure_) : PinchedPlaces{};
   auto candidates = contact_candidates(*deck_, *structure_, pinched, stage_ == 0 ? problems : not_at_rest);
   const bool sliding = slides(*deck_, described.builder, candidates, problems);
+  if (stage_ == 0) check_friction(*deck_, *structure_, candidates, sliding, problems);
   if (!sliding) sliding_structure_.reset();
   if (!sliding) check_hollow_corners(*deck_, problems);
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
@@ -446,6 +447,7 @@ State Model::taken_over(const State& last) const {
 std::optional<Index> Model::unstable_under_dead_load(const PathPoint& point) const {
   constexpr double vanishing = 1e-6;  // of the parts of a rate
   if (moved_.empty() || !point.count.unstable) return std::nullopt;
+  if (!system().slipping(point.state.active_set).empty()) return std::nullopt;  // K with slips is not symmetric
   double rate = 0.0, size = 0.0;
   for (const MovedDof& moved : moved_) {
     const Row row = moved.reaction->gradient(point.state);

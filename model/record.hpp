@@ -18,12 +18,22 @@ struct RecordColumn {
   std::string unit{};  ///< without brackets; may be empty
 };
 
+/// Stores what friction does at a closed contact.
+struct RecordFriction {
+  ContactMode mode = ContactMode::sticks;
+  double force = 0.0;              ///< T, along the wall's tangent [force]
+  double coefficient = 0.0;        ///< μ [-]
+  double slip = 0.0;               ///< since the contact closed [length]
+  std::optional<double> anchor{};  ///< x of the place where it sticks [length]
+};
+
 /// Stores a closed contact of a point, a row of contacts.csv.
 struct RecordForce {
   ContactLabel label{};
   double x = 0.0;                    ///< current position [length]
   double force = 0.0;                ///< along the wall's normal [force]
   std::optional<double> pressure{};  ///< [force/length]; empty of a point force
+  std::optional<RecordFriction> friction{};
 };
 
 /// Stores the derivatives of λ and of the monitors by the arc length, along the path.
@@ -55,7 +65,22 @@ struct RecordPoint {
 /// Stores a contact that changes.
 struct RecordContact {
   ContactLabel label{};
-  double x = 0.0;  ///< current position of the contact point [length]
+  double x = 0.0;                            ///< current position of the contact point [length]
+  std::optional<double> force{};             ///< of a change with friction [force]
+  std::optional<RecordFriction> friction{};  ///< of a closed contact with friction, behind the change
+};
+
+/// Stores an admissible way on from a change of contacts with friction.
+struct RecordFrictionWay {
+  struct Contact {
+    ContactLabel label{};
+    ContactMode mode = ContactMode::open;
+  };
+  std::vector<Contact> contacts{};  ///< those that might change
+  int lambda_sense = 0;             ///< sign of the rate of λ
+  double dissipation = 0.0;         ///< power of friction along the unit tangent
+  std::optional<Index> unstable{};
+  bool taken = false;
 };
 
 /// Stores the sensitivity of an event's λ and monitors to a parameter of the deck.
@@ -118,6 +143,8 @@ struct RecordEvent {
   double residual = 0.0;                         ///< relative
   double lambda_uncertainty = 0.0;               ///< half-width in λ
   std::vector<RecordContact> contacts{};         ///< of a change of contact
+  std::vector<RecordFrictionWay> ways{};         ///< of a change of contacts with friction: all that were found
+  bool all_ways_known = false;                   ///< every combination was tried
   std::optional<Extremum> extremum{};            ///< of λ, at a limit point
   std::optional<std::string> monitor{};          ///< of a turning point or a value crossing
   std::optional<double> value{};                 ///< of a value crossing: the value that is passed
@@ -196,6 +223,7 @@ struct Record {
   std::string title{};
   std::string energy_unit{}, length_unit{}, force_unit{};
   bool has_walls = false;
+  bool has_friction = false;
   bool moves_supports = false;
   std::vector<std::string> stages{};  ///< their names; empty if the deck has none
   std::vector<RecordColumn> columns{};

@@ -12,8 +12,23 @@ void parts(Archive& archive, ContactLabel& label) {
 }
 
 template <typename Archive>
+void parts(Archive& archive, RecordFriction& friction) {
+  archive(friction.mode, friction.force, friction.coefficient, friction.slip, friction.anchor);
+}
+
+template <typename Archive>
+void parts(Archive& archive, RecordFrictionWay::Contact& contact) {
+  archive(contact.label, contact.mode);
+}
+
+template <typename Archive>
+void parts(Archive& archive, RecordFrictionWay& way) {
+  archive(way.contacts, way.lambda_sense, way.dissipation, way.unstable, way.taken);
+}
+
+template <typename Archive>
 void parts(Archive& archive, RecordForce& force) {
-  archive(force.label, force.x, force.force, force.pressure);
+  archive(force.label, force.x, force.force, force.pressure, force.friction);
 }
 
 template <typename Archive>
@@ -30,7 +45,7 @@ void parts(Archive& archive, RecordPoint& point) {
 
 template <typename Archive>
 void parts(Archive& archive, RecordContact& contact) {
-  archive(contact.label, contact.x);
+  archive(contact.label, contact.x, contact.force, contact.friction);
 }
 
 template <typename Archive>
@@ -75,7 +90,7 @@ void parts(Archive& archive, RecordEvent& event) {
           event.unstable_before, event.unstable_after, event.unstable_load_control, event.residual,
           event.lambda_uncertainty, event.contacts, event.extremum, event.monitor, event.value, event.branch_end,
           event.branch_type, event.multiplicity, event.unconfirmed, event.mesh_artefact, event.branches, event.mode,
-          event.sensitivity, event.continuum);
+          event.sensitivity, event.continuum, event.ways, event.all_ways_known);
   keep_owned(archive, event.jump);
 }
 

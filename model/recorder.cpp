@@ -29,6 +29,17 @@ std::optional<double> pressure_of(const ContactPoint& contact, const deck::Frame
   return pressure;
 }
 
+std::optional<RecordFriction> friction_of(const ContactPoint& contact, const deck::Frame& frame) {
+  if (!contact.friction) return std::nullopt;
+  const FrictionOfContact& friction = *contact.friction;
+  RecordFriction told{.mode = friction.mode,
+                      .force = friction.force,
+                      .coefficient = friction.coefficient,
+                      .slip = frame.factor() * friction.slip};
+  if (friction.anchor) told.anchor = frame.place(contact.place).x();
+  return told;
+}
+
 std::vector<RecordForce> forces_at(const Model* model, const State& state) {
   std::vector<RecordForce> forces;
   if (model == nullptr || model->contacts() == nullptr) return forces;
@@ -36,7 +47,8 @@ std::vector<RecordForce> forces_at(const Model* model, const State& state) {
     forces.push_back({.label = contact.label,
                       .x = model->frame().place(contact.place).x(),
                       .force = contact.force,
-                      .pressure = pressure_of(contact, model->frame())});
+                      .pressure = pressure_of(contact, model->frame()),
+                      .friction = friction_of(contact, model->frame())});
   return forces;
 }
 
@@ -68,6 +80,7 @@ Record empty_record(const Model& model) {
                 .length_unit = deck.units.length,
                 .force_unit = deck.units.force,
                 .has_walls = !deck.walls.empty(),
+                .has_friction = deck::has_friction(deck),
                 .moves_supports = moves_supports(model.whole_deck())};
   for (const deck::Stage& stage : model.whole_deck().stages) record.stages.push_back(stage.name);
   for (const MonitorColumn& monitor : model.monitors()) record.columns.push_back({monitor.name, monitor.unit});
@@ -181,7 +194,20 @@ RecordEvent Recorder::recorded(const Event& event, const State& at) const {
   for (const Index j : event.guards) {
     const ContactPoint contact = model_->contacts()->contact(event.state, j);
     record.contacts.push_back({.label = contact.label, .x = model_->frame().place(contact.place).x()});
+    record.contacts.back().friction = friction_of(contact, model_->frame());
+    if (record.contacts.back().friction) record.contacts.back().force = contact.force;
   }
+  for (const FrictionWay& way : event.friction_ways) {
+    RecordFrictionWay told{.lambda_sense = way.lambda_sense,
+                           .dissipation = model_->frame().factor() * way.dissipation,
+                           .unstable = way.unstable,
+                           .taken = way.taken};
+    for (const ModeOfContact& mode : way.modes)
+      told.contacts.push_back(
+          {.label = model_->contacts()->contact(event.state, mode.contact).label, .mode = mode.mode});
+    record.ways.push_back(std::move(told));
+  }
+  record.all_ways_known = event.all_ways_known;
   return record;
 }
 

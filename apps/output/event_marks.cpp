@@ -39,6 +39,10 @@ EventMark mark_of(EventKind kind) {
       return {.symbol = "diamond-wide", .outline = polygon(4, 0.0, {1.3, 0.8}), .filled = !filled};
     case EventKind::contacts_merge:
       return {.symbol = "cross", .outline = polygon(8, 0.5, {1.3, 0.55}), .filled = !filled};
+    case EventKind::contact_slips:
+      return {.symbol = "triangle-right", .outline = polygon(3, 0.0, {1.15}), .filled = filled};
+    case EventKind::contact_sticks:
+      return {.symbol = "square", .outline = polygon(4, 0.5, {0.8}), .filled = !filled};
     case EventKind::contact_transfers:
       return {.symbol = "diamond-tall", .outline = polygon(4, 0.0, {0.8, 1.3}), .filled = !filled};
     case EventKind::limit_point:
@@ -76,6 +80,10 @@ std::string_view meaning(EventKind kind) {
       return "a contact zone becomes a contact point";
     case EventKind::contacts_merge:
       return "two contacts become one";
+    case EventKind::contact_slips:
+      return "a contact that stuck by friction begins to slip";
+    case EventKind::contact_sticks:
+      return "the slip of a contact ends: friction holds it";
     case EventKind::contact_transfers:
       return "contact moves between the end and the interior of a member, or over a joint";
     case EventKind::limit_point:

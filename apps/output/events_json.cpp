@@ -24,10 +24,38 @@ OrderedJson monitors(const Record& record, const std::vector<double>& values) {
 }
 
 OrderedJson contact(const RecordContact& contact) {
-  return {{"wall", contact.label.wall},
-          {"member", contact.label.member},
-          {"fraction", number(contact.label.fraction)},
-          {"x", number(contact.x)}};
+  OrderedJson json{{"wall", contact.label.wall},
+                   {"member", contact.label.member},
+                   {"fraction", number(contact.label.fraction)},
+                   {"x", number(contact.x)}};
+  if (contact.friction) {
+    json["state"] = to_text(contact.friction->mode);
+    json["force"] = number(contact.force.value_or(0.0));
+    json["friction"] = number(contact.friction->force);
+  }
+  return json;
+}
+
+// The first-order ways on from a change of contacts with friction; whether there is one alone is known if all were
+// tried.
+void add_ways(const RecordEvent& event, OrderedJson& json) {
+  if (event.ways.empty()) return;
+  json["unique"] = event.all_ways_known ? OrderedJson(event.ways.size() == 1) : OrderedJson(nullptr);
+  json["ways"] = OrderedJson::array();
+  for (const RecordFrictionWay& way : event.ways) {
+    OrderedJson told;
+    told["contacts"] = OrderedJson::array();
+    for (const RecordFrictionWay::Contact& one : way.contacts)
+      told["contacts"].push_back({{"wall", one.label.wall},
+                                  {"member", one.label.member},
+                                  {"fraction", number(one.label.fraction)},
+                                  {"state", to_text(one.mode)}});
+    told["lambda"] = way.lambda_sense;
+    told["dissipation"] = number(way.dissipation);
+    told["unstable"] = count(way.unstable);
+    told["taken"] = way.taken;
+    json["ways"].push_back(std::move(told));
+  }
 }
 
 OrderedJson family(const Continuum& continuum) {
@@ -95,6 +123,7 @@ OrderedJson event_json(const Record& record, const RecordEvent& event) {
     json["contact"] = OrderedJson::array();
     for (const RecordContact& one : event.contacts) json["contact"].push_back(contact(one));
   }
+  add_ways(event, json);
   if (event.continuum) json["family"] = family(*event.continuum);
   if (event.extremum) json["extremum"] = to_text(*event.extremum);
   if (event.monitor) json["monitor"] = *event.monitor;

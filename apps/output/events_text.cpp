@@ -27,6 +27,7 @@ std::string contacts(const std::vector<RecordContact>& list) {
   for (std::size_t i = 0; i < std::min(list.size(), most_contacts); ++i) {
     const ContactLabel& label = list[i].label;
     text += fmt::format("{}{} at {}:{:.4g}", i > 0 ? ", " : "", label.wall, label.member, label.fraction);
+    if (list[i].friction) text += fmt::format(" ({})", to_text(list[i].friction->mode));
   }
   if (list.size() > most_contacts) text += fmt::format(" and {} more", list.size() - most_contacts);
   return text;

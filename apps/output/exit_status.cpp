@@ -29,6 +29,7 @@ ExitStatus exit_status(EndReason reason) {
     case EndReason::equilibrium_family:
     case EndReason::not_modelled:
     case EndReason::rigid_body_motion:
+    case EndReason::jammed:
     case EndReason::unstable:
       return ExitStatus::ended_early;
   }

@@ -292,7 +292,18 @@ std::optional<CountRange> range_of_counts(const PointAtHand& at, const ZeroEigen
 
 }  // namespace
 
+namespace {
+
+// Friction has no energy whose second variation could be counted.
+bool has_friction(const PointAtHand& at) {
+  return std::any_of(at.touches.all.begin(), at.touches.all.end(),
+                     [](const Touch& touch) { return touch.friction.has_value(); });
+}
+
+}  // namespace
+
 std::optional<CountRange> unstable_range(const PointAtHand& at, const ZeroEigenvalue& zero) {
+  if (has_friction(at)) return std::nullopt;
   auto range = range_of_counts(at, zero, Supports::held);
   const double sure = gap_left * at.scales.length;  // places along a wall
   const auto bends_anew = [&](const Touch& touch) {
@@ -317,7 +328,8 @@ std::optional<CountRange> unstable_load_control_range(const PointAtHand& at, con
     const auto& unknowns = touch.gap.unknowns;
     return touch.closed && std::find(unknowns.begin(), unknowns.end(), -1) != unknowns.end();
   };
-  if (!is_driven_by_supports_alone(at.model) || std::any_of(at.touches.all.begin(), at.touches.all.end(), is_held))
+  if (has_friction(at) || !is_driven_by_supports_alone(at.model) ||
+      std::any_of(at.touches.all.begin(), at.touches.all.end(), is_held))
     return std::nullopt;
   return range_of_counts(at, zero, Supports::dead);
 }

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "apps/verify/section_point.hpp"
+#include "core/unit_tangent.hpp"
 
 namespace arcwall::verify {
 
@@ -82,6 +83,18 @@ struct NodeContacts {
   State rest{.x = Vector::Zero(model.structure().size({}))};
 };
 
+SectionPoint section_point(const NodeContacts& all, Index j) {
+  const auto& [model, walls, state, sections, rest] = all;
+  const ContactLabel& label = model.contact()->candidate(j).label();
+  const MemberSection& section = sections.at(label);
+  SectionPoint point{.node = model.structure().position(section.node),
+                     .shape_angle = section.shape.angle,
+                     .axis_angle = section.axis.angle,
+                     .along_director = section.quadratic == QuadraticTerm::director};
+  point.offset = offset_of(model, wall_of(walls, label.wall), j, point, sections.half_height(label.member), rest);
+  return point;
+}
+
 Touch node_touch(const NodeContacts& all, Index j) {
   const auto& [model, walls, state, sections, rest] = all;
   const Structure& structure = model.structure();
@@ -89,11 +102,7 @@ Touch node_touch(const NodeContacts& all, Index j) {
   const PlainWall& wall = wall_of(walls, label.wall);
   const MemberSection& section = sections.at(label);
   const double half = sections.half_height(label.member);
-  SectionPoint point{.node = structure.position(section.node),
-                     .shape_angle = section.shape.angle,
-                     .axis_angle = section.axis.angle,
-                     .along_director = section.quadratic == QuadraticTerm::director};
-  point.offset = offset_of(model, wall, j, point, half, rest);
+  const SectionPoint point = section_point(all, j);
   Touch touch{.label = label, .gap = node_unknowns(structure, section, state)};
   touch.gap.of = [point, half, &wall](const Vector& u) { return wall.gap_to(point.at(u), half); };
   if (wall.has_outline())
@@ -119,6 +128,30 @@ void read_forces(const Model& model, const State& state, Touches& touches) {
     const double force = state.x[next++];
     touch.force = opposite ? std::max(force, 0.0) : force;
     if (opposite) touches.all[static_cast<std::size_t>(*opposite)].force = std::max(-force, 0.0);
+  }
+}
+
+// Forces along the walls stand behind all forces across them. The deck gives their coefficients.
+void read_friction(const NodeContacts& contacts, Touches& touches) {
+  const auto& [model, walls, state, sections, rest] = contacts;
+  auto next = model.structure().size({}) + state.active_set.closed_count();
+  for (std::size_t j = 0; j < state.active_set.contacts(); ++j) {
+    Touch& touch = touches.all[j];
+    const ContactPoint told = model.contact()->contact(state, static_cast<Index>(j));
+    if (!touch.closed || !told.friction) continue;
+    const PlainWall& wall = wall_of(walls, touch.label.wall);
+    const SectionPoint point = section_point(contacts, static_cast<Index>(j));
+    const double sign = wall.has_outline() || wall.deck().side == Side::below ? 1.0 : -1.0;
+    const Vec2 tangent = sign * unit_tangent(wall.slope_angle(point.at(touch.gap.at)));
+    FrictionAtTouch friction{.along = touch.gap,
+                             .force = state.x[next++],
+                             .coefficient = deck::friction_of(model.deck(), wall.deck(), touch.label.member),
+                             .slips = slips(told.friction->mode),
+                             .slip = told.friction->slip};
+    friction.along.slopes = nullptr;
+    friction.along.bends = nullptr;
+    friction.along.of = [point, tangent](const Vector& u) { return tangent.dot(point.at(u)); };
+    touch.friction = std::move(friction);
   }
 }
 
@@ -149,6 +182,7 @@ Touches node_touches(const Model& model, const std::vector<PlainWall>& walls, co
   for (std::size_t j = 0; j < state.active_set.contacts(); ++j)
     touches.all.push_back(node_touch(contacts, static_cast<Index>(j)));
   read_forces(model, state, touches);
+  if (deck::has_friction(model.deck())) read_friction(contacts, touches);
   find_opposite(model.structure().length_scale(), touches.all);
   return touches;
 }

@@ -70,6 +70,19 @@ PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vec
   return at;
 }
 
+namespace {
+
+// |T| ≤ μ p, and |T| = μ p of what slips.
+void check_friction(const Touch& touch, double force, Findings& findings) {
+  constexpr double law = 1e-9;  // of μ p
+  const double most = touch.friction->coefficient * std::max(touch.force, 0.0);
+  const double off = std::abs(touch.friction->force) - most;
+  findings.compare("friction is at most μ p", touch.friction->slips ? std::abs(off) : off, law * most + force,
+                   named(touch.label));
+}
+
+}  // namespace
+
 void check_contacts(const PointAtHand& at, Findings& findings, bool waits) {
   constexpr double entered_in_change = 1e-6;  // of the length
   const double length = gap_left * at.scales.length, force = smallest_force(at);
@@ -77,6 +90,7 @@ void check_contacts(const PointAtHand& at, Findings& findings, bool waits) {
     const double gap = touch.gap.value();
     if (touch.closed) {
       if (touch.listed) findings.compare("contact forces push", -touch.force, force, named(touch.label));
+      if (touch.friction) check_friction(touch, force, findings);
       findings.compare("closed contacts have zero gap",
                        std::abs(gap + touch.compliance * (touch.force - touch.against)), length, named(touch.label));
     } else if (std::isfinite(gap)) {
@@ -130,7 +144,10 @@ Balance balance(const PointAtHand& at) {
     add_to(sum.rounded, potential.unknowns, made_by(at, e, digits));
   }
   for (const Touch& touch : at.touches.all)
-    if (touch.closed) add(touch.gap.unknowns, -wall_force(touch) * touch.gap.gradient());
+    if (touch.closed) {
+      add(touch.gap.unknowns, -wall_force(touch) * touch.gap.gradient());
+      if (touch.friction) add(touch.gap.unknowns, -touch.friction->force * touch.friction->along.gradient());
+    }
   for (const Tangency& tangency : at.touches.tangencies)
     add(tangency.tilt.unknowns, -tangency.moment * tangency.tilt.gradient());
   for (const Pinched& pinched : at.touches.pinched)

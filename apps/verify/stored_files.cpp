@@ -135,15 +135,34 @@ void check_path_row(const Row& row, const RecordPoint& point, const PathExpectat
               findings);
 }
 
-// branch, step, lambda, wall, member, fraction, x, force, pressure
+// The cells behind those of all contacts: friction, state, slip and anchor.
+void check_friction_cells(const Row& row, const std::string& name, const ContactPoint& contact, const Model& model,
+                          Findings& findings) {
+  const std::string check = "contacts.csv matches the states";
+  if (!contact.friction) {
+    for (std::size_t cell = 9; cell < row.size(); ++cell)
+      expect_same(check, row[cell], "", "friction of " + name, findings);
+    return;
+  }
+  const FrictionOfContact& friction = *contact.friction;
+  const double factor = model.frame().factor();
+  findings.compare(check, std::abs(number(row[9]) - friction.force), rounding(std::abs(friction.force)),
+                   "friction of " + name);
+  expect_same(check, row[10], std::string(to_text(friction.mode)), "state of " + name, findings);
+  findings.compare(check, std::abs(number(row[11]) - factor * friction.slip), rounding(model.size()),
+                   "slip of " + name);
+}
+
+// branch, step, lambda, wall, member, fraction, x, force, pressure; with friction four more
 void check_contact_rows(const std::vector<Row>& rows, std::size_t& next, const RecordPoint& point,
                         const Touches& touches, const Model& model, Findings& findings) {
   const std::string check = "contacts.csv matches the states";
   for (const Touch& touch : touches.all) {
     if (!touch.closed || !touch.listed) continue;
     const std::string name = touch.label.wall + " at " + touch.label.member + ":" + round_trip(touch.label.fraction);
-    findings.require(check, next < rows.size() && rows[next].size() == 9, "no row of " + name);
-    if (next >= rows.size() || rows[next].size() != 9) return;
+    const std::size_t cells = deck::has_friction(model.deck()) ? 13 : 9;
+    findings.require(check, next < rows.size() && rows[next].size() == cells, "no row of " + name);
+    if (next >= rows.size() || rows[next].size() != cells) return;
     const Row& row = rows[next++];
     expect_same(check, row[0], std::to_string(point.branch), "branch of " + name, findings);
     expect_same(check, row[1], std::to_string(point.step), "step of " + name, findings);
@@ -162,6 +181,11 @@ void check_contact_rows(const std::vector<Row>& rows, std::size_t& next, const R
            rounding(std::abs(touch.force / (model.frame().factor() * tributary))), "pressure");
     else
       expect_same(check, row[8], "", "pressure of " + name, findings);
+    if (cells == 9) continue;
+    for (const ContactPoint& contact : model.contacts()->closed_contacts(point.state))
+      if (contact.label.wall == touch.label.wall && contact.label.member == touch.label.member &&
+          contact.label.fraction == touch.label.fraction)
+        check_friction_cells(row, name, contact, model, findings);
   }
 }
 

@@ -36,6 +36,15 @@ struct NodeFunction {
 /// Gives a gap to a wall with an outline its derivatives by x and z. `place`: of the axis, which the unknowns move.
 void take_outline(const PlainWall& wall, const std::function<Vec2(const Vector&)>& place, NodeFunction& gap);
 
+/// What friction does at a closed contact.
+struct FrictionAtTouch {
+  NodeFunction along{};      ///< distance along the wall's tangent at the contact
+  double force = 0.0;        ///< T, as stored [force]
+  double coefficient = 0.0;  ///< μ
+  bool slips = false;
+  double slip = 0.0;  ///< as stored [length]
+};
+
 /// A point of the structure against a wall.
 struct Touch {
   ContactLabel label{};
@@ -48,6 +57,7 @@ struct Touch {
   bool listed = true;       ///< in contacts.csv: nodes inside a pressed part are not
   bool two_sided = false;   ///< another touches the same point from the opposite side
   double against = 0.0;     ///< the force of that other [force]
+  std::optional<FrictionAtTouch> friction{};
 };
 
 /// What the wall exerts: p, less the spring of the augmented Lagrangian.

@@ -121,6 +121,9 @@ std::vector<std::string> left_out(const Model& model, Index uncounted, bool move
     sentences.emplace_back(
         "stability counts near zone ends, and where elements turn by more than 0.3 rad: checked only as an interval, "
         "between contact rotations fixed and free");
+  if (deck::has_friction(model.deck()))
+    sentences.emplace_back(
+        "stability counts and the choice among several solutions at contacts with friction: no energy determines them");
   sentences.emplace_back(
       "arc lengths, iterations, residuals, critical modes and types of bifurcations: single states do not determine "
       "them");
@@ -132,6 +135,19 @@ std::vector<std::string> left_out(const Model& model, Index uncounted, bool move
     sentences.emplace_back(
         "pairs of events that cancel between two points of the path: --again traces the path with smaller steps");
   return sentences;
+}
+
+// Friction opposes slip: what slips at two points that follow each other has slipped against its friction force.
+void check_slips(const Model& model, const RecordPoint& before, const RecordPoint& after, Findings& findings) {
+  if (!deck::has_friction(model.deck()) || before.state.active_set != after.state.active_set) return;
+  const std::vector<ContactPoint> from = model.contacts()->closed_contacts(before.state),
+                                  to = model.contacts()->closed_contacts(after.state);
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    if (!to[i].friction || !slips(to[i].friction->mode)) continue;
+    const double way = slip_sense(to[i].friction->mode) * (to[i].friction->slip - from[i].friction->slip);
+    findings.compare("friction opposes slip", -way, 1e-9 * model.structure().length_scale(),
+                     to[i].label.wall + " at " + to[i].label.member);
+  }
 }
 
 class Verifier {
@@ -205,6 +221,8 @@ class Verifier {
       if (number > 0 && record_.points[number - 1].branch == point.branch)
         check_passages(model, walls_[static_cast<std::size_t>(stage)], record_.points[number - 1], point, findings);
       check_rates(model.watched(), record_.points, number, findings);
+      if (number > 0 && record_.points[number - 1].branch == point.branch)
+        check_slips(model, record_.points[number - 1], point, findings);
     }
     if (number < path_rows_.size()) {
       findings.at("path.csv", point.branch, point.step);

@@ -39,6 +39,8 @@ bool is_change_of_contact(EventKind kind) {
     case EventKind::contact_splits:
     case EventKind::contact_shrinks:
     case EventKind::contacts_merge:
+    case EventKind::contact_slips:
+    case EventKind::contact_sticks:
     case EventKind::contact_transfers:
       return true;
     case EventKind::start:

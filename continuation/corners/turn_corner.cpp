@@ -209,7 +209,7 @@ void add_turns(const TraceTools& tools, const std::vector<int>& signs_before, co
   const std::vector<int> now = signs_at(tools.detectors, behind);
   for (std::size_t i = 0; i < tools.detectors.size(); ++i) {
     const EventDetector& detector = tools.detectors[i];
-    if (!triggers(detector, signs_before[i], now[i])) continue;
+    if (detector.kind == EventKind::contact_sticks || !triggers(detector, signs_before[i], now[i])) continue;
     event.kind = detector.kind == EventKind::limit_point ? EventKind::contact_limit_point : detector.kind;
     event.label = detector.label;
     event.extremum = extremum_at(detector.kind, signs_before[i]);

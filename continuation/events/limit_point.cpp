@@ -68,6 +68,7 @@ double work_from_energies(const System& system, const Metric& metric, const Path
 // which passes zero with t_λ. Zero where F_λᵀ t_x vanishes nearly, as at a branch point.
 int change_at_limit(TraceTools& tools, const StepOrigin& origin, const PathPoint& at) {
   constexpr double nearly = 1e-6;
+  if (!tools.system.slipping(at.state.active_set).empty()) return 0;  // friction has no energy whose rate would tell
   if (!tools.corrector.is_at(at.state)) tools.system.linearize(at.state, tools.workspace(at.state.active_set));
   const Linearization& now = tools.corrector.factorized().equations();
   const double work =

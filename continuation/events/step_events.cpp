@@ -138,7 +138,7 @@ ArcEndSearch locate_events(TraceTools& tools, const StepOrigin& origin, StepEnd 
     end.singular = std::move(search.points);
   }
   if (!end.singular.empty()) end_at(end, end.singular.front().place, end.singular.front().at);
-  const bool looks = tools.options.events != EventSearch::none || !tools.options.target_values.empty();
+  const bool looks = !tools.detectors.empty() || !tools.options.target_values.empty();
   for (;;) {
     const Segment segment(origin.metric, origin.point(), end.point);
     end.length = segment.length();
@@ -171,7 +171,9 @@ std::vector<Event> events_at(const TraceTools& tools, const StepOrigin& origin, 
       if (events.back().unconfirmed) events.back().extremum.reset();  // λ touches its extreme value without turning
     }
     for (Event& event : events) event.lambda_uncertainty = std::max(event.lambda_uncertainty, first.uncertain);
-  } else if (end.event && end.event->what != EventPlace::What::target_value) {
+  } else if (end.event && end.event->what != EventPlace::What::target_value &&
+             !(end.event->what == EventPlace::What::detector &&
+               tools.detectors[end.event->which].kind == EventKind::contact_sticks)) {
     events.push_back(located_event(tools, origin, end, behind));
   }
   return events;

@@ -264,7 +264,8 @@ LocatedEvent locate_value(TraceTools& tools, const StepOrigin& origin, const Eve
 
 LocatedEvent locate(TraceTools& tools, const StepOrigin& origin, const EventPlace& place, const PathPoint& to) {
   if (place.what == EventPlace::What::target_value) return locate_value(tools, origin, place, to);
-  if (tools.options.events == EventSearch::detect) {
+  const bool ends_slip = tools.detectors[place.which].kind == EventKind::contact_sticks;
+  if (tools.options.events == EventSearch::detect && !ends_slip) {
     LocatedEvent at_end{.place = place, .point = to};
     at_end.place.t = 1.0;
     at_end.place.half_width = 0.5;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "contact/friction_layout.hpp"
 #include "model/checkpoint/parts.hpp"
 
 namespace arcwall {
@@ -12,6 +13,7 @@ using Json = nlohmann::json;
 namespace {
 
 constexpr const char* of_an_event = "event";
+constexpr const char* of_friction = "friction";
 
 }  // namespace
 
@@ -21,6 +23,9 @@ bool ArchiveModel::owns(const ActiveSet& active_set) const {
     return event != nullptr && active_set.empty();
   const ActiveSet open = system->open_active_set();
   if ((active_set.layout() == nullptr) != (open.layout() == nullptr)) return false;
+  if (const auto* friction = dynamic_cast<const FrictionLayout*>(active_set.layout().get()))
+    return friction->contacts().size() == open.contacts() && active_set.size() == open.size() &&
+           std::all_of(active_set.begin(), active_set.end(), [](std::uint8_t closed) { return closed <= 1; });
   const auto* layout = dynamic_cast<const SlidingContactLayout*>(active_set.layout().get());
   const auto* at_rest = dynamic_cast<const SlidingContactLayout*>(open.layout().get());
   const auto is_status = [](std::uint8_t closed) { return closed <= 1; };
@@ -82,13 +87,19 @@ Json ArchiveWriter::active_set(const ActiveSet& active_set) {
   return json;
 }
 
-// Of an event the first entry is a text.
+// Of an event, and of contacts with friction, the first entry is a text.
 Json ArchiveWriter::layout(const Layout& any) {
   ArchiveWriter inner(shared_);
   if (const EventSystem::Meaning* const meaning = EventSystem::meaning_of(any)) {
     std::string what = of_an_event;
     EventSystem::Meaning copy = *meaning;
     inner(what, copy);
+    return std::move(inner.json_);
+  }
+  if (const auto* const friction = dynamic_cast<const FrictionLayout*>(&any)) {
+    std::string what = of_friction;
+    std::vector<FrictionLayout::Contact> contacts = friction->contacts();
+    inner(what, contacts);
     return std::move(inner.json_);
   }
   const auto& layout = dynamic_cast<const SlidingContactLayout&>(any);
@@ -139,6 +150,15 @@ std::shared_ptr<const Layout> ArchiveReader::layout(const Json& json) {
   if (!json.is_array())
     return shared_->layouts[static_cast<std::size_t>(
         whole_number(json, 0, static_cast<std::int64_t>(shared_->layouts.size()) - 1))];
+  if (!json.empty() && json[0] == of_friction) {
+    std::string what;
+    std::vector<FrictionLayout::Contact> contacts;
+    ArchiveReader inner(json, shared_);
+    inner(what, contacts);
+    require(inner.at_end());
+    shared_->layouts.push_back(std::make_shared<const FrictionLayout>(std::move(contacts)));
+    return shared_->layouts.back();
+  }
   if (!json.empty() && json[0].is_string()) return layout_of_event(json);
   Index stage = 0;
   ElementsPerSegment cut;

@@ -12,6 +12,7 @@ constexpr std::int64_t greatest(Stability) { return static_cast<std::int64_t>(St
 constexpr std::int64_t greatest(EventKind) { return static_cast<std::int64_t>(EventKind::user); }
 constexpr std::int64_t greatest(Extremum) { return static_cast<std::int64_t>(Extremum::minimum); }
 constexpr std::int64_t greatest(BranchType) { return static_cast<std::int64_t>(BranchType::multiple); }
+constexpr std::int64_t greatest(ContactMode) { return static_cast<std::int64_t>(ContactMode::slips_backward); }
 constexpr std::int64_t greatest(EndReason) { return static_cast<std::int64_t>(EndReason::unstable); }
 
 constexpr std::int64_t greatest(SlidingContactLayout::Span) {

@@ -232,11 +232,30 @@ bool acts_in(const Spring& spring, Dof direction) {
   return std::visit(Acts{direction}, spring.kind);
 }
 
+double friction_of(const Deck& deck, const Wall& wall, const std::string& member) {
+  double coefficient = wall.friction;
+  for (const FrictionPair& pair : deck.frictions)
+    if ((pair.wall.empty() || pair.wall == wall.name) && (pair.member.empty() || pair.member == member))
+      coefficient = pair.coefficient;
+  return coefficient;
+}
+
+bool has_friction(const Deck& deck) {
+  return std::any_of(deck.walls.begin(), deck.walls.end(), [&](const Wall& wall) {
+    return std::any_of(deck.members.begin(), deck.members.end(), [&](const Member& member) {
+      const bool concerns = wall.members.empty() ||
+                            std::find(wall.members.begin(), wall.members.end(), member.name) != wall.members.end();
+      return concerns && friction_of(deck, wall, member.name) > 0.0;
+    });
+  });
+}
+
 PointsOfContact points_of_contact(const Deck& deck) {
   if (deck.contact.points) return {.points = *deck.contact.points, .why = "as contact.points says"};
   if (deck.contact.method != ContactLaw::Method::rigid)
     return {.points = ContactPoints::nodes,
             .why = "method " + text_of(contact_method_words, deck.contact.method) + " puts springs at nodes"};
+  if (has_friction(deck)) return {.points = ContactPoints::nodes, .why = "walls have friction"};
   if (deck.path.method == PathMethod::incremental)
     return {.points = ContactPoints::nodes, .why = "path.method incremental has contact at nodes"};
   for (const Member& member : deck.members)

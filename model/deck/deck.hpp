@@ -323,6 +323,8 @@ enum class Component {
   moment,
   force_x,
   force_z,
+  friction_force,
+  slip,
   gap,
   contact_start,
   contact_end,
@@ -507,6 +509,7 @@ struct Deck {
   std::vector<Load> loads{};  ///< of these and what is prescribed at least one is neither constant nor zero
   std::vector<Spring> springs{};
   std::vector<Wall> walls{};
+  std::vector<FrictionPair> frictions{};  ///< the last that fits counts
   Contact contact{};
   Path path{};
   std::vector<Stage> stages{};  ///< empty: one that drives all that is not constant
@@ -543,6 +546,12 @@ struct PointsOfContact {
   std::string why{};
 };
 PointsOfContact points_of_contact(const Deck& deck);
+
+/// The coefficient of friction of a wall on a member.
+double friction_of(const Deck& deck, const Wall& wall, const std::string& member);
+
+/// Whether a wall has friction on a member.
+bool has_friction(const Deck& deck);
 
 /// The line of two straight walls on both sides of an axis that leave nothing between them but round-off of the size of
 /// the structure; empty for other walls.

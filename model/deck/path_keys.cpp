@@ -333,6 +333,9 @@ Owner owner_of(Component component) {
     case Component::force_x:
     case Component::force_z:
       return {"a wall or a spring", "write `wall` or `spring` instead, or give reaction-x or reaction-z of a place"};
+    case Component::friction_force:
+      return {"a wall", "write `wall` instead, or give both `at` and `wall`"};
+    case Component::slip:
     case Component::gap:
       return {"a place and a wall", "give both `at` and `wall`"};
     case Component::contact_start:
@@ -384,11 +387,13 @@ bool check_owner(Keys& keys, const Monitor& monitor) {
     case Monitored::wall:
       if (is_contact_edge(component) && monitor.member.empty())
         return refuse(word + " is a place along a member", "add `member`: the one that the wall touches");
-      return is_force(component) || is_contact_edge(component) ||
+      if (component == Component::slip) return refuse("slip is that of a place", "give at");
+      return is_force(component) || is_contact_edge(component) || component == Component::friction_force ||
              refuse("a wall has no " + word, component == Component::gap ? "add `at`: the place of which it is the gap"
                                                                          : "give force-x, force-z or moment");
     case Monitored::gap:
       return component == Component::gap || component == Component::force_x || component == Component::force_z ||
+             component == Component::friction_force || component == Component::slip ||
              refuse("a place and a wall have a gap and a force between them, and no " + word,
                     "give gap, force-x or force-z, or leave out `wall` or `at`");
     case Monitored::member:
@@ -455,9 +460,13 @@ void check_stress(Keys& keys, const Deck& deck, const Monitor& monitor) {
 
 void check_monitored(Keys& keys, const Deck& deck, const Monitor& monitor) {
   if (!check_owner(keys, monitor)) return;
+  const bool of_friction = monitor.component == Component::friction_force || monitor.component == Component::slip;
+  if (of_friction && !has_friction(deck))
+    keys.report("component", "no wall of the deck has friction", "give the wall `friction`");
   if (monitor.of() == Monitored::place) check_face(keys, deck, monitor);
   if (monitor.of() == Monitored::spring) check_spring(keys, deck, monitor);
   const double end = monitor.at.fraction.value_or(0.0);
+  if (of_friction) return;  // at nodes
   if (monitor.of() == Monitored::gap && monitor.component != Component::gap && end != 0.0 && end != 1.0)
     keys.report("at", "contact inside a member moves along it, so that no place has a force of its own",
                 "name an end of the member, as MEMBER:1, or write `member` for the force on the whole member");

@@ -111,8 +111,23 @@ void wall_keys(Keys& keys, Wall& wall, std::unordered_set<std::string>& taken, c
   keys.number(
       optional("interference"), wall.interference, unit::length, not_negative,
       "initial overlap with the undeformed structure; the wall moves into place while the constant loads are applied");
+  keys.number(optional("friction"), wall.friction, unit::none, not_negative,
+              "coefficient μ of Coulomb friction: a contact sticks up to a friction force μ p, and slips at it");
   keys.part("motion", wall.motion, [&](WallMotion& motion) { motion_keys(keys, motion); });
   check_faces(keys, deck, wall);
+}
+
+void friction_keys(Keys& keys, const Deck& deck, FrictionPair& pair) {
+  keys.text(optional("wall", "all"), pair.wall, "name of the wall");
+  keys.text(optional("member", "all"), pair.member, "name of the member");
+  keys.number("coefficient", pair.coefficient, unit::none, not_negative, "in place of the wall's `friction`");
+  if (!keys.reads()) return;
+  if (pair.wall.empty() && pair.member.empty())
+    keys.report("coefficient", "says not what it is for", "name a wall, a member or both");
+  if (!pair.wall.empty() && find(deck.walls, pair.wall) == nullptr)
+    keys.report("wall", "there is no wall " + in_quotes(pair.wall, 60), "name a wall of the deck");
+  if (!pair.member.empty() && find(deck.members, pair.member) == nullptr)
+    keys.report("member", "there is no member " + in_quotes(pair.member, 60), "name a member of the deck");
 }
 
 void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
@@ -141,6 +156,9 @@ bool declare_walls(Keys& root, Deck& deck) {
   std::unordered_set<std::string> taken;
   const auto keys_of_wall = [&](Keys& keys, Wall& wall) { wall_keys(keys, wall, taken, deck); };
   const bool all_right = root.tables(optional("wall"), deck.walls, keys_of_wall, "");
+  root.tables(
+      optional("friction"), deck.frictions, [&](Keys& keys, FrictionPair& pair) { friction_keys(keys, deck, pair); },
+      "");
   root.table(
       optional("contact"), Form::header, [&](Keys& keys) { contact_keys(keys, deck, deck.contact); }, "");
   return all_right;

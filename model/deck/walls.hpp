@@ -143,11 +143,22 @@ struct Wall {
   std::vector<double> corner_radii{};  ///< of each corner in turn [length]; empty: corner_radius
   double interference = 0.0;           ///< so far it begins moved back from the structure [length]
   std::optional<WallMotion> motion{};
+  double friction = 0.0;  ///< coefficient μ of Coulomb friction ≥ 0 [-]
 
   /// Of a polyline: the radius at each of its points, 0 at the ends of an open one.
   std::vector<double> radii() const;
 
   bool operator==(const Wall&) const = default;
+};
+
+/// Friction of a wall and a member that differs from the wall's.
+struct FrictionPair {
+  Position position{};
+  std::string wall{};    ///< empty: every wall
+  std::string member{};  ///< empty: every member
+  double coefficient = 0.0;
+
+  bool operator==(const FrictionPair&) const = default;
 };
 
 enum class ContactPoints { nodes, moving };

@@ -375,6 +375,8 @@ KINDS = (
     "contact-splits",
     "contact-shrinks",
     "contacts-merge",
+    "contact-slips",
+    "contact-sticks",
     "contact-transfers",
     "limit-point",
     "contact-limit-point",

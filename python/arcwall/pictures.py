@@ -25,6 +25,8 @@ MARKS = {
     "contact-splits": ("P", 6, True),
     "contact-shrinks": ("d", 6, False),
     "contacts-merge": ("P", 6, False),
+    "contact-slips": (">", 6, True),
+    "contact-sticks": ("s", 4, False),
     "contact-transfers": ("D", 5, False),
     "limit-point": ("o", 6, True),
     "contact-limit-point": ("h", 10, False),

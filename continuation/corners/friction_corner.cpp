@@ -1,0 +1,370 @@
+#include "continuation/corners/friction_corner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "continuation/path_tolerances.hpp"
+#include "continuation/step/point_on_path.hpp"
+#include "core/text.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr int most_changes_here = 50;
+constexpr double mirror_images = 1e-8;       // by what bounds of friction that symmetry lets be reached together differ
+constexpr double same_motion = 1.0 - 1e-6;   // cosine above which two directions are one
+constexpr double rate_tolerance = 1e-7;      // a smaller rate is zero, relative to the greatest of its kind
+constexpr std::size_t most_combined = 4096;  // combinations of modes up to which all are tried
+
+// A contact, and what it may do from here on; the first is what it would do at once where nothing is known.
+struct BoundContact {
+  Index contact = 0;
+  std::vector<ContactMode> modes{};
+  bool touches = false;  // without a force
+};
+
+// One combination of modes: its equations hold at the corner, and the rates along the direction fulfil the law.
+struct Continuation {
+  std::vector<ModeOfContact> modes{};
+  State state{};
+  Direction direction{};  // unit
+  std::optional<Index> unstable{};
+  double dissipation = 0.0;
+};
+
+double bound_tolerance(const TraceTools& tools, const Corner& corner) {
+  return std::max(tools.options.guard_tolerance, 2.0 * corner.slack);
+}
+
+// The contacts that stand at a bound: those that touch without a force, those that stick with |T| = μ p, and those that
+// slip, which may stick from here on.
+std::vector<BoundContact> choices_at(const TraceTools& tools, const Corner& corner, std::optional<Index> landed,
+                                     std::optional<Index> ended) {
+  using enum ContactMode;
+  const System& system = tools.system;
+  const ActiveSet& active_set = corner.at.state.active_set;
+  const double tolerance = bound_tolerance(tools, corner);
+  std::vector<BoundContact> choices;
+  const auto contacts = static_cast<Index>(active_set.contacts());
+  for (Index j = 0; j < contacts; ++j) {
+    const ContactMode mode = system.mode(active_set, j);
+    const bool touches = std::abs(corner.at.guards[j]) <= tolerance || landed == j;
+    if (touches && !system.is_two_sided(active_set, j))
+      choices.push_back({.contact = j,
+                         .modes = system.is_rough(j) ? std::vector{sticks, open, slips_forward, slips_backward}
+                                                     : std::vector{closed, open},
+                         .touches = true});
+    else if (slips(mode) && ended == j)
+      choices.push_back({.contact = j, .modes = {sticks}});
+    else if (slips(mode))
+      choices.push_back({.contact = j, .modes = {mode, sticks}});
+  }
+  for (Index guard = contacts; guard < corner.at.guards.size(); ++guard) {
+    if (corner.at.guards[guard] > std::max(tolerance, mirror_images) && landed != guard) continue;
+    const auto beyond = system.beyond_friction_bound(active_set, guard);
+    const auto known = [&](const BoundContact& choice) { return choice.contact == beyond->contact; };
+    if (beyond && std::none_of(choices.begin(), choices.end(), known))
+      choices.push_back({.contact = beyond->contact, .modes = {sticks, beyond->mode}});
+  }
+  return choices;
+}
+
+// The equations of a combination of modes at the corner with their tangent, of either sense; empty where they are
+// singular.
+std::optional<Continuation> tangent_with(TraceTools& tools, const Corner& corner, std::vector<ModeOfContact> modes) {
+  const System& system = tools.system;
+  Continuation way{.modes = std::move(modes)};
+  way.state = system.with_modes(corner.at.state, way.modes);
+  auto& [now, solver] = tools.corner_workspace;
+  system.linearize(way.state, now);
+  if (!all_finite(now.F)) return std::nullopt;
+  if (solver.factorize(now, system.multiplier_count(way.state.active_set)) == FactorStatus::not_finite)
+    return std::nullopt;
+  const Metric metric = tools.metric_on(way.state.active_set, corner.lambda_scale);
+  Direction across{.dx = system.transfer(corner.at.tangent.dx, corner.at.state.active_set, way.state.active_set),
+                   .dlambda = corner.at.tangent.dlambda};
+  Matrix columns(way.state.x.size(), 1);
+  if (!solver.tangent(metric.row(across), way.direction, columns)) return std::nullopt;
+  way.direction = unit(metric, std::move(way.direction));
+  if (!way.direction.dx.allFinite()) return std::nullopt;
+  return way;
+}
+
+// What a way violates, and what each contact that does would do instead.
+std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& corner,
+                                      const std::vector<BoundContact>& choices, const Continuation& way) {
+  using enum ContactMode;
+  const System& system = tools.system;
+  const ActiveSet& active_set = way.state.active_set;
+  const auto contacts = static_cast<Index>(active_set.contacts());
+  const GuardsAlong along = system.guards_along(way.state, way.direction);
+  double most_motion = 0.0, most_force = 0.0;
+  for (Index j = 0; j < along.rates.size(); ++j) {
+    const bool is_gap = j < contacts && !active_set[static_cast<std::size_t>(j)];
+    double& most = is_gap ? most_motion : most_force;
+    most = std::max(most, std::abs(along.rates[j]));
+  }
+  for (const BoundContact& choice : choices)
+    most_motion = std::max(most_motion, std::abs(system.slip_rate(way.state, way.direction, choice.contact)));
+  const double no_motion = rate_tolerance * most_motion, no_force = rate_tolerance * most_force;
+  std::vector<ModeOfContact> found;
+  for (const BoundContact& choice : choices) {
+    const Index j = choice.contact;
+    const ContactMode mode = system.mode(active_set, j);
+    const double rate = along.rates[j];
+    if (mode == open && rate < -no_motion)
+      found.push_back({.contact = j, .mode = system.is_rough(j) ? sticks : closed});
+    else if (mode != open && choice.touches && rate < -no_force)
+      found.push_back({.contact = j, .mode = open});
+    else if (slips(mode) && system.slip_rate(way.state, way.direction, j) <= no_motion)
+      found.push_back({.contact = j, .mode = sticks});
+  }
+  const double tolerance = std::max(bound_tolerance(tools, corner), mirror_images);
+  for (Index guard = contacts; guard < along.rates.size(); ++guard)
+    if (along.values[guard] <= tolerance && along.rates[guard] < -no_force)
+      if (const auto beyond = system.beyond_friction_bound(active_set, guard)) found.push_back(*beyond);
+  return found;
+}
+
+// −Σ T v, v the rate of slip.
+double dissipation_along(const System& system, const Continuation& way) {
+  double power = 0.0;
+  for (const Index j : system.slipping(way.state.active_set)) {
+    const double sense = slip_sense(system.mode(way.state.active_set, j));
+    power -= system.friction_force(way.state, j) * sense * system.slip_rate(way.state, way.direction, j);
+  }
+  return power;
+}
+
+void add_both_senses(TraceTools& tools, const Corner& corner, const std::vector<BoundContact>& choices,
+                     Continuation way, std::vector<Continuation>& ways) {
+  for (int sense = 0; sense < 2; ++sense) {
+    if (sense == 1) way.direction = reversed(std::move(way.direction));
+    if (violations(tools, corner, choices, way).empty()) ways.push_back(way);
+  }
+}
+
+std::vector<Continuation> every_way(TraceTools& tools, const Corner& corner, const std::vector<BoundContact>& choices) {
+  std::vector<Continuation> ways;
+  std::vector<std::size_t> at(choices.size(), 0);
+  for (;;) {
+    std::vector<ModeOfContact> modes;
+    for (std::size_t i = 0; i < choices.size(); ++i)
+      modes.push_back({.contact = choices[i].contact, .mode = choices[i].modes[at[i]]});
+    if (auto way = tangent_with(tools, corner, std::move(modes)))
+      add_both_senses(tools, corner, choices, std::move(*way), ways);
+    std::size_t i = 0;
+    while (i < at.size() && ++at[i] == choices[i].modes.size()) at[i++] = 0;
+    if (i == at.size()) return ways;
+  }
+}
+
+// Of many contacts: all that violate the law change what they do, until none does; where that comes back to what was
+// tried before, the first of them alone.
+std::vector<Continuation> one_way(TraceTools& tools, const Corner& corner, const std::vector<BoundContact>& choices,
+                                  double sense) {
+  constexpr int most = 200;
+  std::vector<ModeOfContact> modes;
+  for (const BoundContact& choice : choices) modes.push_back({.contact = choice.contact, .mode = choice.modes.front()});
+  std::vector<std::vector<ModeOfContact>> tried;
+  for (int round = 0; round < most; ++round) {
+    auto way = tangent_with(tools, corner, modes);
+    if (!way) return {};
+    if (way->direction.dlambda * sense < 0.0) way->direction = reversed(std::move(way->direction));
+    const auto wrong = violations(tools, corner, choices, *way);
+    if (wrong.empty()) return {std::move(*way)};
+    const bool again = std::find(tried.begin(), tried.end(), modes) != tried.end();
+    tried.push_back(modes);
+    for (const ModeOfContact& change : wrong) {
+      const auto its = std::find_if(modes.begin(), modes.end(),
+                                    [&](const ModeOfContact& mode) { return mode.contact == change.contact; });
+      if (its == modes.end()) return {};
+      its->mode = change.mode;
+      if (again) break;
+    }
+  }
+  return {};
+}
+
+// How the structure moves: with all contacts open, of unit length.
+Direction motion_along(const TraceTools& tools, const Corner& corner, const State& state, const Direction& direction) {
+  const ActiveSet open = state.active_set.all_open();
+  return unit(tools.metric_on(open, corner.lambda_scale),
+              {.dx = tools.system.transfer(direction.dx, state.active_set, open), .dlambda = direction.dlambda});
+}
+
+int sign_of_rate(double value) { return value > 0.0 ? 1 : value < 0.0 ? -1 : 0; }
+
+// The sign of the determinant of the equations times that of the rate of λ, which goes on through a corner.
+std::optional<int> orientation(std::optional<Index> negative, const Direction& direction) {
+  if (!negative || direction.dlambda == 0.0) return std::nullopt;
+  return (*negative % 2 == 0 ? 1 : -1) * sign_of_rate(direction.dlambda);
+}
+
+// How good it is to go on along a way; the least is best.
+struct FrictionRank {
+  bool turns_over;  // the orientation changes
+  int kind;         // λ goes on, stable; λ goes on; λ turns
+  Index unstable;
+  double less_dissipation;  // its negative
+  double backward;
+  auto operator<=>(const FrictionRank&) const = default;
+};
+
+// That every contact sticks and λ turns is unloading, which nobody has asked for.
+bool unloads(const Continuation& way, const std::vector<BoundContact>& choices, double sense) {
+  if (way.direction.dlambda * sense >= 0.0) return false;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    if (choices[i].touches || way.modes[i].mode != ContactMode::sticks) return false;
+  return true;
+}
+
+std::string event_place(const TraceTools& tools, const Corner& corner, const std::vector<BoundContact>& choices) {
+  return choices.empty() ? std::string() : tools.system.watched_place(corner.at.state, choices.front().contact);
+}
+
+std::vector<Event> events_between(const TraceTools& tools, const Corner& corner, const PathPoint& behind,
+                                  const Event& event) {
+  const System& system = tools.system;
+  const ActiveSet &old = corner.at.state.active_set, &now = behind.state.active_set;
+  std::vector<Event> events;
+  for (const EventKind kind :
+       {EventKind::contact_closes, EventKind::contact_opens, EventKind::contact_slips, EventKind::contact_sticks}) {
+    Event changes = event;
+    changes.kind = kind;
+    for (Index j = 0; j < static_cast<Index>(now.contacts()); ++j) {
+      const ContactMode before = system.mode(old, j), after = system.mode(now, j);
+      const bool stays_closed = before != ContactMode::open && after != ContactMode::open && before != after;
+      if ((kind == EventKind::contact_closes && before == ContactMode::open && after != ContactMode::open) ||
+          (kind == EventKind::contact_opens && before != ContactMode::open && after == ContactMode::open) ||
+          (kind == EventKind::contact_slips && stays_closed && slips(after)) ||
+          (kind == EventKind::contact_sticks && stays_closed && after == ContactMode::sticks))
+        changes.guards.push_back(j);
+    }
+    if (!changes.guards.empty()) events.push_back(std::move(changes));
+  }
+  return events;
+}
+
+}  // namespace
+
+std::vector<EventDetector> slip_end_detectors(const System& system) {
+  std::vector<EventDetector> detectors;
+  if (!system.has_friction()) return detectors;
+  const auto contacts = static_cast<Index>(system.open_active_set().contacts());
+  for (Index j = 0; j < contacts; ++j) {
+    if (!system.is_rough(j)) continue;
+    const auto rate = [&system, j](const PathPoint& at) { return system.slip_rate(at.state, at.tangent, j); };
+    // The place is an unknown, so that the rate along the unknowns themselves is the slip.
+    const auto slip = [&system, j](const PathPoint& at) {
+      return system.slip_rate(at.state, {.dx = at.state.x, .dlambda = 0.0}, j);
+    };
+    detectors.push_back({.kind = EventKind::contact_sticks,
+                         .label = std::to_string(j),
+                         .crossing = Crossing::falling,
+                         .value = rate,
+                         .integral = slip});
+  }
+  return detectors;
+}
+
+bool may_change_at_start(const TraceTools& tools, const PathPoint& at) {
+  if (!tools.system.has_friction()) return false;
+  return !tools.system.slipping(at.state.active_set).empty() ||
+         !degenerate_contacts(at.guards, at.state.active_set, tools.options.guard_tolerance).empty();
+}
+
+CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optional<Index> landed,
+                                  std::optional<Index> ended) {
+  CornerPassed passed{.at = corner.at, .without_progress = corner.without_progress};
+  const std::vector<BoundContact> choices = choices_at(tools, corner, landed, ended);
+  const std::string place = event_place(tools, corner, choices);
+  if (corner.without_progress > most_changes_here) {
+    passed.end = {.reason = EndReason::no_continuation,
+                  .detail = with_place("the contacts change again and again at one point; use more elements", place)};
+    return passed;
+  }
+  const double sense = corner.at.tangent.dlambda < 0.0 ? -1.0 : 1.0;
+  std::size_t combined = 1;
+  for (const BoundContact& choice : choices) combined = std::min(combined * choice.modes.size(), most_combined + 1);
+  const bool all_known = combined <= most_combined;
+  std::vector<Continuation> ways =
+      all_known ? every_way(tools, corner, choices) : one_way(tools, corner, choices, sense);
+  if (ways.empty() && !all_known) ways = one_way(tools, corner, choices, -sense);
+
+  const Direction incoming = motion_along(tools, corner, corner.at.state, corner.at.tangent);
+  const Metric open_metric = tools.metric_on(corner.at.state.active_set.all_open(), corner.lambda_scale);
+  const auto cosine = [&](const Continuation& way) {
+    return open_metric.inner(motion_along(tools, corner, way.state, way.direction), incoming);
+  };
+  std::erase_if(ways, [&](const Continuation& way) {
+    return (!corner.begins_branch && cosine(way) < -same_motion) || unloads(way, choices, sense);
+  });
+  const auto turns = [&](const Continuation& way) { return way.direction.dlambda * sense < 0.0; };
+  if (corner.begins_branch && !std::all_of(ways.begin(), ways.end(), turns)) std::erase_if(ways, turns);
+  if (ways.empty()) {
+    passed.end = {.reason = EndReason::jammed,
+                  .detail = with_place("no motion in which friction opposes slip leads on: the load can go no further "
+                                       "in this sense; let a stage drive back, or lower the friction",
+                                       place)};
+    return passed;
+  }
+  const std::optional<Index> before =
+      corner.at.negative_eigenvalues ? corner.at.negative_eigenvalues : corner.before.unstable;
+  const auto oriented = corner.begins_branch ? std::nullopt : orientation(before, corner.at.tangent);
+  std::optional<FrictionRank> best;
+  std::size_t chosen = 0;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    Continuation& way = ways[i];
+    way.unstable = tools.counter.negative_on(way.state);
+    way.dissipation = dissipation_along(tools.system, way);
+    const auto turned = orientation(way.unstable, way.direction);
+    const bool goes_on = way.direction.dlambda * sense > 0.0;
+    const FrictionRank rank{.turns_over = oriented && turned && *oriented != *turned,
+                            .kind = !goes_on                   ? 2
+                                    : way.unstable == Index{0} ? 0
+                                                               : 1,
+                            .unstable = way.unstable.value_or(std::numeric_limits<Index>::max()),
+                            .less_dissipation = -way.dissipation,
+                            .backward = -cosine(way)};
+    if (best && !(rank < *best)) continue;
+    best = rank;
+    chosen = i;
+  }
+  const Continuation& taken = ways[chosen];
+  const Metric metric = tools.metric_on(taken.state.active_set, corner.lambda_scale);
+  CorrectorResult result = tools.corrector.inspect(taken.state, metric, taken.direction);
+  if (!result.converged()) {
+    passed.end = {.reason = EndReason::singular, .detail = with_place(nothing_behind_change, place)};
+    return passed;
+  }
+  PathPoint at = path_point(tools.system, metric, std::move(result), taken.direction);
+  decide_count(tools, at);
+  at.arc = corner.at.arc;
+  at.iterations = corner.at.iterations;
+  at.count = tools.counter.count(at.state, at.negative_eigenvalues);
+  Event event{.state = at.state,
+              .arc = at.arc,
+              .residual = corner.at.residual,
+              .lambda_uncertainty = 0.0,
+              .unstable_before = corner.before.unstable,
+              .unstable_after = at.count.unstable,
+              .all_ways_known = all_known};
+  for (const Continuation& way : ways)
+    event.friction_ways.push_back({.modes = way.modes,
+                                   .lambda_sense = sign_of_rate(way.direction.dlambda),
+                                   .dissipation = way.dissipation,
+                                   .unstable = way.unstable,
+                                   .taken = &way == &taken});
+  passed.events = events_between(tools, corner, at, event);
+  if (!corner.begins_branch) add_turns(tools, corner.signs, at, event, passed.events);
+  passed.at = std::move(at);
+  return passed;
+}
+
+}  // namespace arcwall
