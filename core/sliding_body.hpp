@@ -15,6 +15,10 @@ struct MaterialPoint {
   double s = 0.0;
 };
 
+struct SectionStiffness {
+  double EA = 0.0, EI = 0.0;
+};
+
 /// An end of a strand.
 struct StrandEnd {
   Index strand = 0;
@@ -221,8 +225,10 @@ class SlidingBody {
   };
   virtual FreeStrain free_strain(Index strand, double lambda) const = 0;
 
-  virtual double bending_stiffness(Index strand) const = 0;  ///< EI [force·length²]
-  virtual double axial_stiffness(Index strand) const = 0;    ///< EA [force]
+  /// EA [force] and EI [force·length²] at a place, or a derivative of them by stress-free length.
+  virtual SectionStiffness stiffness(const MaterialPoint& point, int derivative = 0) const = 0;
+  double axial_stiffness(const MaterialPoint& point) const { return stiffness(point).EA; }
+  double bending_stiffness(const MaterialPoint& point) const { return stiffness(point).EI; }
 
   /// Where point loads act inside a strand: material coordinates, ascending [length].
   virtual const std::vector<double>& point_loads(Index strand) const = 0;

@@ -30,10 +30,11 @@ Angle angle_at(const BentAxis& axis, double x) {
 Path tangent(const BentAxis& axis, double xi) {
   const Angle angle = angle_at(axis, xi - 0.5);
   const Vec2 t(std::cos(angle.value), std::sin(angle.value));
-  const double strain = axis.force.dot(t) / axis.EA, strain_rate = axis.force.dot(perp(t)) / axis.EA;
+  const double EA = axis.EA_at(xi);
+  const double strain = axis.force.dot(t) / EA, strain_rate = axis.force.dot(perp(t)) / EA;
   return {.value = axis.length * (1.0 + strain) * t,
           .gradient = axis.length * (((1.0 + strain) * perp(t) + strain_rate * t) * angle.gradient +
-                                     t * (t.transpose() * axis.force_gradient) / axis.EA)};
+                                     t * (t.transpose() * axis.force_gradient) / EA)};
 }
 
 // ∫ of it from 0 to ξ.

@@ -191,10 +191,16 @@ struct BentAxis {
   static constexpr int terms = 5;
 
   double length = 0.0, EA = 0.0;
+  const StretchTaper* taper = nullptr;                                              // null: EA is the same all along
+  std::array<double, 2> ends{};                                                     // S1, S2 of a tapering stretch
   Eigen::Matrix<double, terms, 1> angle = Eigen::Matrix<double, terms, 1>::Zero();  // coefficients of ξ − ½
   Eigen::Matrix<double, terms, 3> angle_gradient = Eigen::Matrix<double, terms, 3>::Zero();
   Vec2 force = Vec2::Zero();  // along the chord and across
   Eigen::Matrix<double, 2, 3> force_gradient = Eigen::Matrix<double, 2, 3>::Zero();
+
+  double EA_at(double xi) const {
+    return taper == nullptr ? EA : EA / taper->softness((1.0 - xi) * ends[0] + xi * ends[1]);
+  }
 };
 
 /// The place at ξ on such an axis.

@@ -28,6 +28,9 @@ Vector5 shape_functions(double x) {
 
 const Vector5 bending_weights(0.0, 1.0, 0.0, 1.0 / 3.0, 1.0 / 20.0);
 
+// φ′, but for a₄, which never changes.
+Vector5 shape_slopes(double x) { return {0.0, 1.0, 0.0, 2.0 * x, 3.0 * x * x - 0.25}; }
+
 // p of the cubic through four equally spaced angles, the first and the last of which are `slope1` and `slope2` against
 // the chord.
 Vector5 interpolated(double slope1, double slope2, const std::array<double, StretchReference::samples>& angles) {
@@ -44,13 +47,14 @@ Vector5 change_of(const ChordMotion& at, const Vector4d& inner) {
 // Gauss's rule on |x| ≤ ½ and the shape functions at its points.
 template <std::size_t count>
 struct Rule {
-  std::array<double, count> weight{};
+  std::array<double, count> x{}, weight{};
   std::array<Vector5, count> phi{};
 
   Rule() {
     using Points = boost::math::quadrature::gauss<double, count>;
     std::size_t next = 0;
     const auto add = [&](double node, double w) {
+      x[next] = 0.5 * node;
       weight[next] = 0.5 * w;
       phi[next++] = shape_functions(0.5 * node);
     };
@@ -79,8 +83,11 @@ constexpr Index a4_row = 0, a3_row = 4, e_row = 5, v_row = 6;
 
 // With the force n = EA (e, v) along the chord and across it, the energy is stationary in e, v and in a₂, a₃:
 //
-//   U/EA = EI/(2 EA h) Σ w_k (p_k − p_k⁰)² + e (l − l₀) − h ∫ [e Δcos θ + v Δsin θ + ½ ν²] dx
+//   U/EA = EI/(2 EA h) (p − p⁰)ᵀ W (p − p⁰) + e (l − l₀) − h ∫ [e Δcos θ + v Δsin θ + ½ a ν²] dx
 //   ν = N/EA = e cos θ + v sin θ                                                                       (2)
+//
+// EA and EI are those of one section of the member: a = EA/EA(S), W_kl = ∫ EI(S)/EI φ_k′ φ_l′ dx, and the strain is a
+// ν. Where the section is the same all along, a = 1 and W = diag w.
 //
 // Δ is the change since the stress-free state: without it the integrals of θ⁰, whose chord differs from the true one by
 // the error of its interpolation, would put the element under stress at rest. The angle of order 4 keeps a₃ = a₃⁰.
@@ -88,7 +95,7 @@ struct ElasticaBeam::Potential {
   Vector7 gradient = Vector7::Zero();
   Matrix7 hessian = Matrix7::Zero();
   Vector7 integrals = Vector7::Zero();  // their part of the gradient, over h
-  double squared_strain = 0.0;          // ∫ ν²
+  double squared_strain = 0.0;          // ∫ a ν²
 
   // In a₂, a₃, e and v, and their coupling with l, b and σ; a₃ may be held.
   Vector4d inner_gradient(bool cubic) const {
@@ -130,13 +137,18 @@ struct ElasticaBeam::Solution {
 
 // The fifth coefficient of the stress-free angle gives it the chord's direction: ∫ sin θ⁰ = 0 to the sixth order in h,
 // since ∫ φ of a₄ is −1/270.
-ElasticaBeam::ElasticaBeam(const StretchReference& stretch, double EA, double EI, ElasticaOrder order)
+ElasticaBeam::ElasticaBeam(const StretchReference& stretch, double EA, double EI, ElasticaOrder order,
+                           const std::optional<StretchTaper>& taper)
     : rest_(rest_chord(stretch)),
       length_(stretch.length),
       EA_(EA),
       EI_(EI),
       cubic_(order == ElasticaOrder::six),
-      angle_(interpolated(rest_.slope1, rest_.slope2, stretch.angles)) {
+      angle_(interpolated(rest_.slope1, rest_.slope2, stretch.angles)),
+      taper_(taper),
+      ends_(stretch.ends),
+      bending_(bending_weights.asDiagonal()) {
+  softness_.fill(1.0);
   const std::array<RestChord, 2> chords = rest_chord_rate(stretch);
   for (std::size_t i = 0; i < 2; ++i) {
     rates_[i] = {.length = stretch.length_rate[i],
@@ -154,6 +166,24 @@ ElasticaBeam::ElasticaBeam(const StretchReference& stretch, double EA, double EI
     rate.along = mean([&](const Vector5& phi) { return std::sin(angle_.dot(phi)) * rate.angle.dot(phi); });
     rate.across = mean([&](const Vector5& phi) { return std::cos(angle_.dot(phi)) * rate.angle.dot(phi); });
   }
+  if (taper_) add_taper(stretch);
+}
+
+// S = S₁ + ξ (S₂ − S₁) at ξ = x + ½, which the ends take along.
+void ElasticaBeam::add_taper(const StretchReference& stretch) {
+  bending_.setZero();
+  for (std::size_t g = 0; g < points; ++g) {
+    const double xi = rule.x[g] + 0.5, S = (1.0 - xi) * ends_[0] + xi * ends_[1];
+    const Vector5 slopes = shape_slopes(rule.x[g]);
+    const Weights weight = rule.weight[g] * slopes * slopes.transpose();
+    softness_[g] = taper_->softness(S);
+    bending_ += taper_->stiffness(S) * weight;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double S_rate = (i == 0 ? 1.0 - xi : xi) * stretch.end_rate[i];
+      rates_[i].softness[g] = taper_->softness_rate(S) * S_rate;
+      rates_[i].bending += taper_->stiffness_rate(S) * S_rate * weight;
+    }
+  }
 }
 
 ElasticaBeam::Potential ElasticaBeam::potential(const ChordMotion& at, const Vector4d& inner) const {
@@ -167,35 +197,38 @@ ElasticaBeam::Potential ElasticaBeam::potential(const ChordMotion& at, const Vec
     const double d_cosine = cosine_[g] * turn_c - sine_[g] * turn_s, d_sine = sine_[g] * turn_c + cosine_[g] * turn_s;
     const double cosine = cosine_[g] + d_cosine, sine = sine_[g] + d_sine;
     const double nu = e * cosine + v * sine, nu_rate = v * cosine - e * sine;  // ν, ∂ν/∂θ
+    const double a = softness_[g], stretch = 1.0 + a * nu;
     const Vector5 weighted = rule.weight[g] * phi;
-    out.integrals.head<5>() -= (1.0 + nu) * nu_rate * weighted;
-    out.integrals[e_row] -= rule.weight[g] * (d_cosine + nu * cosine);
-    out.integrals[v_row] -= rule.weight[g] * (d_sine + nu * sine);
-    out.squared_strain += rule.weight[g] * nu * nu;
-    out.hessian.topLeftCorner<5, 5>() -= (nu_rate * nu_rate - (1.0 + nu) * nu) * weighted * phi.transpose();
-    out.hessian.col(e_row).head<5>() -= (nu_rate * cosine - (1.0 + nu) * sine) * weighted;
-    out.hessian.col(v_row).head<5>() -= (nu_rate * sine + (1.0 + nu) * cosine) * weighted;
-    out.hessian(e_row, e_row) -= rule.weight[g] * cosine * cosine;
-    out.hessian(e_row, v_row) -= rule.weight[g] * cosine * sine;
-    out.hessian(v_row, v_row) -= rule.weight[g] * sine * sine;
+    out.integrals.head<5>() -= stretch * nu_rate * weighted;
+    out.integrals[e_row] -= rule.weight[g] * (d_cosine + a * nu * cosine);
+    out.integrals[v_row] -= rule.weight[g] * (d_sine + a * nu * sine);
+    out.squared_strain += rule.weight[g] * a * nu * nu;
+    out.hessian.topLeftCorner<5, 5>() -= (a * nu_rate * nu_rate - stretch * nu) * weighted * phi.transpose();
+    out.hessian.col(e_row).head<5>() -= (a * nu_rate * cosine - stretch * sine) * weighted;
+    out.hessian.col(v_row).head<5>() -= (a * nu_rate * sine + stretch * cosine) * weighted;
+    out.hessian(e_row, e_row) -= rule.weight[g] * a * cosine * cosine;
+    out.hessian(e_row, v_row) -= rule.weight[g] * a * cosine * sine;
+    out.hessian(v_row, v_row) -= rule.weight[g] * a * sine * sine;
   }
   out.hessian *= h;
   out.hessian.bottomLeftCorner<2, 5>() = out.hessian.topRightCorner<5, 2>().transpose();
   out.hessian(v_row, e_row) = out.hessian(e_row, v_row);
-  out.hessian.diagonal().head<5>() += bending * bending_weights;
+  out.hessian.topLeftCorner<5, 5>() += bending * bending_;
   out.gradient = h * out.integrals;
-  out.gradient.head<5>() += bending * bending_weights.cwiseProduct(change);
+  out.gradient.head<5>() += bending * (bending_ * change);
   out.gradient[e_row] += at.stretch;
   return out;
 }
 
 // A quadratic angle without force, its axial strain, and the force across that bends it: EI a₂/3 = −EA v (1 + e) h²/6.
+// A section that tapers counts as in its middle.
 Vector4d ElasticaBeam::first_guess(const ChordMotion& at) const {
   const double b_0 = angle_[1], s_0 = angle_[2], b = b_0 + at.d2 - at.d1, s = s_0 + 3.0 * (at.d1 + at.d2);
   const double p = shortening(b, s).value, p_0 = shortening(b_0, s_0).value;
   const double a2 = variation(b, s).value - variation(b_0, s_0).value;
   const double e = (at.stretch * (1.0 + p) + rest_.length * (p - p_0)) / length_;
-  return {a2, 0.0, e, -2.0 * EI_ * a2 / (EA_ * length_ * length_ * (1.0 + e))};
+  const double middle = softness_[0];  // the first of the points is x = 0
+  return {a2, 0.0, e / middle, -2.0 * EI_ * bending_(1, 1) * a2 / (EA_ * length_ * length_ * (1.0 + e))};
 }
 
 // Newton's method on the inner unknowns; then, with P = U/EA of (2),
@@ -223,8 +256,7 @@ ElasticaBeam::Solution ElasticaBeam::condensed(const ChordMotion& at, const Vect
                                                const InnerGradient& minus_gradient) const {
   const Vector5 change = change_of(at, y);
   Solution out{.inner = y, .inner_gradient = -minus_gradient, .potential = P};
-  out.energy =
-      0.5 * (EI_ / length_ * change.dot(bending_weights.cwiseProduct(change)) + EA_ * length_ * P.squared_strain);
+  out.energy = 0.5 * (EI_ / length_ * change.dot(bending_ * change) + EA_ * length_ * P.squared_strain);
   out.slopes << y[2], P.gradient.segment<2>(1);
   out.curvatures = P.outer(cubic_).transpose() * out.inner_gradient;
   out.curvatures.bottomRightCorner<2, 2>() += P.hessian.block<2, 2>(1, 1);
@@ -236,19 +268,37 @@ ElasticaBeam::Solution ElasticaBeam::condensed(const ChordMotion& at, const Vect
 // (∂U/∂z)′ = EA (P_z′ + ∂y/∂zᵀ P_y′) at fixed z and y, where y means a₂ and a₃ themselves; a prime is the rate by a
 // material coordinate:
 //
-//   P_k′ = EI/(EA h) w_k [−(h′/h) (p_k − p_k⁰) − p_k⁰′] − h′ ∫ …          k = b, …, a₃
+//   P_k′ = EI/(EA h) {W [−(h′/h) (p − p⁰) − p⁰′]}_k − h′ ∫ …              k = b, …, a₃
 //   P_e′ = −l₀′ − h′ ∫ (Δcos θ + ν cos θ) − h ∫ sin θ⁰ θ⁰′,     P_v′ = −h′ ∫ (Δsin θ + ν sin θ) + h ∫ cos θ⁰ θ⁰′   (4)
 Eigen::Vector3d ElasticaBeam::slope_rate(const ChordMotion& at, const Solution& solution, const Rate& rest) const {
   const double h = length_, bending = EI_ / (EA_ * h);
   const Vector5 bend_rate = -rest.length / h * change_of(at, solution.inner) - rest.angle;
   Vector7 rate = rest.length * solution.potential.integrals;
-  rate.head<5>() += bending * bending_weights.cwiseProduct(bend_rate);
+  rate.head<5>() += bending * (bending_ * bend_rate);
   rate[e_row] -= rest.chord + h * rest.along;
   rate[v_row] += h * rest.across;
   // What stays at its stress-free value moves with it: a₄, and a₃ in an angle of order 4.
   rate += rest.angle[a4_row] * solution.potential.hessian.col(a4_row);
   if (!cubic_) rate += rest.angle[a3_row] * solution.potential.hessian.col(a3_row);
+  if (taper_) rate += taper_rate(at, solution, rest);
   return EA_ * (Eigen::Vector3d(0.0, rate[1], rate[2]) + solution.inner_gradient.transpose() * rate.tail<4>());
+}
+
+// What the rates of a and W add: EI/(EA h) W′ (p − p⁰) and −h ∂(∫ ½ a′ ν²).
+ElasticaBeam::Vector7 ElasticaBeam::taper_rate(const ChordMotion& at, const Solution& solution,
+                                               const Rate& rest) const {
+  const Vector5 change = change_of(at, solution.inner), p = angle_ + change;
+  const double h = length_, e = solution.inner[2], v = solution.inner[3];
+  Vector7 rate = Vector7::Zero();
+  rate.head<5>() = EI_ / (EA_ * h) * (rest.bending * change);
+  for (std::size_t g = 0; g < points; ++g) {
+    const double angle = p.dot(rule.phi[g]), cosine = std::cos(angle), sine = std::sin(angle);
+    const double nu = e * cosine + v * sine, weight = h * rule.weight[g] * rest.softness[g] * nu;
+    rate.head<5>() -= weight * (v * cosine - e * sine) * rule.phi[g];
+    rate[e_row] -= weight * cosine;
+    rate[v_row] -= weight * sine;
+  }
+  return rate;
 }
 
 double ElasticaBeam::evaluate(const double* u, double* f, double* K) const {
@@ -285,6 +335,8 @@ BeamPlace ElasticaBeam::place(const BeamEnds& ends, double xi) const {
       1.0, 0.0, 0.0, 0.0, 0.0;
   return place_on({.length = length_,
                    .EA = EA_,
+                   .taper = taper_ ? &*taper_ : nullptr,
+                   .ends = ends_,
                    .angle = powers * p,
                    .angle_gradient = powers * p_gradient,
                    .force = EA_ * solution.inner.tail<2>(),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "elements/classic_beam.hpp"
@@ -15,15 +16,17 @@ namespace arcwall {
 struct SlenderSection {
   double EA = 0.0, EI = 0.0;             ///< by stress-free length, without heat
   std::optional<ElasticaOrder> order{};  ///< of the elastica; empty: classic
+  std::optional<StretchTaper> taper{};   ///< empty: the same all along
 };
 
-/// visit(beam) with that beam, by value, its stiffnesses times a factor.
+/// visit(beam) with that beam, by value, its stiffnesses times a factor. The classic beam is uniform: in its place
+/// stands the elastica of the same order.
 template <class Visit>
 void with_slender_beam(const StretchReference& stretch, const SlenderSection& section, double stiffer,
                        const Visit& visit) {
   const double EA = stiffer * section.EA, EI = stiffer * section.EI;
-  if (section.order) {
-    visit(ElasticaBeam(stretch, EA, EI, *section.order));
+  if (section.order || section.taper) {
+    visit(ElasticaBeam(stretch, EA, EI, section.order.value_or(ElasticaOrder::four), section.taper));
   } else {
     visit(ClassicBeam(stretch, EA, EI));
   }
@@ -51,7 +54,7 @@ class HeatedBeam final : public DrivenElement {
 /// A ReissnerBeam under temperatures, likewise.
 class HeatedReissnerBeam final : public DrivenElement {
  public:
-  HeatedReissnerBeam(const ExactBeamReference& reference, const ExactBeamStiffness& stiffness,
+  HeatedReissnerBeam(const ExactBeamReference& reference, const std::function<ExactBeamStiffness(double)>& stiffness,
                      const ThermalStrain& thermal)
       : beam_(reference, stiffness), thermal_(thermal) {}
 

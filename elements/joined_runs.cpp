@@ -64,16 +64,16 @@ SlidingStructure::Run SlidingStructure::reversed(const Run& run) {
   return out;
 }
 
-// Whether a strand may run from the end of one run into the beginning of another: both are perfect, of one section and
-// uniformly loaded alike, and lie on one line or on one circle.
+// Whether a strand may run from the end of one run into the beginning of another: both are perfect, of one section that
+// does not taper and uniformly loaded alike, and lie on one line or on one circle.
 bool SlidingStructure::passes(const Run& a, const Run& b, const std::vector<bool>& with_terms,
                               const CarriesForceAlone& carries_force_alone) const {
   const End &end = a.ends[1], &next = b.ends[0];
   const Index node = node_of(end);
   if (with_terms[static_cast<std::size_t>(node)] && !carries_force_alone(node, end.dof[2])) return false;
   const auto is_uniform = [](const DrivenLineLoad& load) { return load.load.is_uniform(); };
-  const bool is_alike = a.theory == b.theory && a.order == b.order && a.section.E == b.section.E &&
-                        a.section.A == b.section.A && a.section.I == b.section.I &&
+  const bool is_alike = a.theory == b.theory && a.order == b.order && a.section.E == b.section.E && !a.section.taper &&
+                        !b.section.taper && a.section.A == b.section.A && a.section.I == b.section.I &&
                         a.section.height == b.section.height && a.loads == b.loads &&
                         std::all_of(a.loads.begin(), a.loads.end(), is_uniform) && a.foundation == b.foundation &&
                         a.pressure == b.pressure && a.thermal == b.thermal;

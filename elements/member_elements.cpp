@@ -62,6 +62,14 @@ EssenburgReference essenburg_reference(const MemberElement& at) {
   return reference;
 }
 
+// At a fraction of an element.
+std::function<ExactBeamStiffness(double)> exact_stiffness(const MemberElement& at) {
+  return [&at](double fraction) {
+    const Section section = at.member.section.at((double(at.k) + fraction) / at.count());
+    return ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()};
+  };
+}
+
 EssenburgStiffness essenburg_stiffness(const Section& section) {
   return {.E = section.E,
           .nu = 0.5 * section.E / section.G - 1.0,
@@ -69,19 +77,19 @@ EssenburgStiffness essenburg_stiffness(const Section& section) {
           .points = section.points};
 }
 
+SlenderSection slender_section(const MemberElement& at) {
+  return slender_section(at.member.section, at.member.theory, at.member.order, at.member.axis->length());
+}
+
 // Under temperatures.
 std::unique_ptr<Element> make_heated_element(const MemberElement& at, const ThermalStrain& thermal) {
   const Section& section = at.member.section;
-  SlenderSection slender{.EA = section.EA(), .EI = section.EI()};
-  if (at.member.theory == Theory::elastica)
-    slender.order = at.member.order == 6 ? ElasticaOrder::six : ElasticaOrder::four;
   switch (at.member.theory) {
     case Theory::euler_bernoulli:
     case Theory::elastica:
-      return std::make_unique<HeatedBeam>(slender_reference(at), slender, thermal);
+      return std::make_unique<HeatedBeam>(slender_reference(at), slender_section(at), thermal);
     case Theory::reissner:
-      return std::make_unique<HeatedReissnerBeam>(
-          exact_reference(at), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()}, thermal);
+      return std::make_unique<HeatedReissnerBeam>(exact_reference(at), exact_stiffness(at), thermal);
     case Theory::truss:
       return std::make_unique<HeatedTruss>(beam_reference(at).chord, section.EA(), at.member.strain, thermal.strain);
     case Theory::essenburg:
@@ -94,13 +102,15 @@ std::unique_ptr<Element> make_element(const MemberElement& at) {
   const Section& section = at.member.section;
   switch (at.member.theory) {
     case Theory::euler_bernoulli:
-      return std::make_unique<ClassicBeam>(beam_reference(at), section.EA(), section.EI());
-    case Theory::elastica:
-      return std::make_unique<ElasticaBeam>(slender_reference(at), section.EA(), section.EI(),
-                                            at.member.order == 6 ? ElasticaOrder::six : ElasticaOrder::four);
+      if (!section.taper) return std::make_unique<ClassicBeam>(beam_reference(at), section.EA(), section.EI());
+      [[fallthrough]];
+    case Theory::elastica: {
+      const SlenderSection slender = slender_section(at);
+      return std::make_unique<ElasticaBeam>(slender_reference(at), slender.EA, slender.EI,
+                                            slender.order.value_or(ElasticaOrder::four), slender.taper);
+    }
     case Theory::reissner:
-      return std::make_unique<ReissnerBeam>(
-          exact_reference(at), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()});
+      return std::make_unique<ReissnerBeam>(exact_reference(at), exact_stiffness(at));
     case Theory::essenburg:
       return std::make_unique<EssenburgBeam>(essenburg_reference(at), essenburg_stiffness(section));
     case Theory::truss:
@@ -110,6 +120,13 @@ std::unique_ptr<Element> make_element(const MemberElement& at) {
 }
 
 }  // namespace
+
+SlenderSection slender_section(const Section& section, Theory theory, int order, double length) {
+  SlenderSection slender{.EA = section.EA(), .EI = section.EI()};
+  if (theory == Theory::elastica) slender.order = order == 6 ? ElasticaOrder::six : ElasticaOrder::four;
+  if (section.taper) slender.taper = {.sizes = section.taper, .length = length, .A = section.A, .I = section.I};
+  return slender;
+}
 
 void add_elements(const MemberDescription& member, const MemberMesh& mesh, const ThermalStrain& thermal,
                   ElementList& elements) {
@@ -121,7 +138,8 @@ void add_elements(const MemberDescription& member, const MemberMesh& mesh, const
   const auto make = [&](std::size_t k) {
     return thermal.is_zero() ? make_element(element(k)) : make_heated_element(element(k), thermal);
   };
-  const bool knows_places = member.theory == Theory::reissner || member.theory == Theory::essenburg;
+  const bool knows_places =
+      member.theory == Theory::reissner || member.theory == Theory::essenburg || member.section.taper != nullptr;
   if (!knows_places && element(0).is_like_all_others())
     elements.add(make(0), count);
   else

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "elements/heated_beam.hpp"
 #include "elements/structure.hpp"
 
 namespace arcwall {
@@ -27,6 +28,9 @@ struct MemberElement {
     return mesh.shape[k + 1].position - mesh.shape[k].position;
   }
 };
+
+/// The section of a slender member whose axis is so long.
+SlenderSection slender_section(const Section& section, Theory theory, int order, double length);
 
 /// Adds the elements of a member, in turn. Those that are alike are one object, where it knows no more of its place
 /// than the chord. Without a thermal strain they have no λ.

@@ -6,12 +6,12 @@ namespace arcwall {
 
 namespace {
 
-double offset_of(const MemberMesh& mesh, MemberObservable::Component component) {
+double offset_of(const MemberMesh& mesh, std::size_t node, MemberObservable::Component component) {
   switch (component) {
     case MemberObservable::Component::face_above_z:
-      return 0.5 * mesh.height.value();
+      return 0.5 * mesh.height_at(mesh.fraction(node)).value();
     case MemberObservable::Component::face_below_z:
-      return -0.5 * mesh.height.value();
+      return -0.5 * mesh.height_at(mesh.fraction(node)).value();
     case MemberObservable::Component::x:
     case MemberObservable::Component::z:
     case MemberObservable::Component::rotation:
@@ -116,7 +116,7 @@ MemberObservable::MemberObservable(const Structure& structure, const MemberMesh&
                                    Component component)
     : structure_(structure),
       component_(component),
-      point_(structure, mesh, node, offset_of(mesh, component)),
+      point_(structure, mesh, node, offset_of(mesh, node, component)),
       rotation_(mesh.rotations[node]) {
   const AxisPoint axis = mesh.axis[node];
   switch (component) {
@@ -131,7 +131,7 @@ MemberObservable::MemberObservable(const Structure& structure, const MemberMesh&
       break;
     case Component::face_above_z:
     case Component::face_below_z:
-      origin_ = axis.position.y() + offset_of(mesh, component) * axis_normal(axis.angle).y();
+      origin_ = axis.position.y() + offset_of(mesh, node, component) * axis_normal(axis.angle).y();
       break;
   }
 }

@@ -9,7 +9,11 @@ namespace arcwall {
 // Positions and the arc length are interpolated alike, ds/dξ = Σ N_a′ s_a: the whole length is exact, and the nodes
 // need not be equally far apart.
 ReissnerBeam::ReissnerBeam(const ExactBeamReference& reference, const ExactBeamStiffness& stiffness)
-    : order_(reference.order()), stiffness_(stiffness) {
+    : ReissnerBeam(reference, [&](double) { return stiffness; }) {}
+
+ReissnerBeam::ReissnerBeam(const ExactBeamReference& reference,
+                           const std::function<ExactBeamStiffness(double)>& stiffness)
+    : order_(reference.order()) {
   assert((order_ == 1 || order_ == 2) && reference.arcs.size() == reference.nodes.size());
   // As many points as the order: one fewer than for the whole polynomial, which would lock.
   const GaussRule rule = gauss_rule(order_);
@@ -19,6 +23,7 @@ ReissnerBeam::ReissnerBeam(const ExactBeamReference& reference, const ExactBeamS
     GaussPoint& point = points_[g];
     point.ds = rule.weight[g] * speed;
     point.N = shape.N;
+    point.stiffness = stiffness(0.5 * (1.0 + rule.xi[g]));
     Vec2 tangent = Vec2::Zero();
     for (std::size_t a = 0; a < reference.nodes.size(); ++a) {
       point.D[a] = shape.dN[a] / speed;
@@ -44,13 +49,13 @@ ReissnerBeam::ReissnerBeam(const ExactBeamReference& reference, const ExactBeamS
 double ReissnerBeam::evaluate(const double* u, const Deformation& e, double* f, double* K, const Deformation& e_rate,
                               double* f_rate) const {
   const auto nodes = static_cast<std::size_t>(order_ + 1), n = 3 * nodes;
-  const auto [EA, GA, EI] = stiffness_;
   if (f != nullptr) std::fill(f, f + n, 0.0);
   if (K != nullptr) std::fill(K, K + n * n, 0.0);
   if (f_rate != nullptr) std::fill(f_rate, f_rate + n, 0.0);
   double U = 0.0;
   for (std::size_t g = 0; g < nodes - 1; ++g) {
     const GaussPoint& at = points_[g];
+    const auto [EA, GA, EI] = at.stiffness;
     double du = 0.0, dw = 0.0, theta = 0.0, kappa = 0.0;  // u′, w′, θ, θ′
     for (std::size_t a = 0; a < nodes; ++a) {
       du += at.D[a] * u[3 * a];

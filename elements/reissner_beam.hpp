@@ -43,6 +43,8 @@ struct ExactBeamStiffness {
 class ReissnerBeam final : public Element {
  public:
   ReissnerBeam(const ExactBeamReference& reference, const ExactBeamStiffness& stiffness);
+  /// `stiffness`: at a fraction of the stretch.
+  ReissnerBeam(const ExactBeamReference& reference, const std::function<ExactBeamStiffness(double)>& stiffness);
 
   int unknown_count() const override { return 3 * (order_ + 1); }
   double evaluate(const double* u, double* f, double* K) const override { return evaluate(u, {}, f, K, {}, nullptr); }
@@ -63,6 +65,7 @@ class ReissnerBeam final : public Element {
     std::array<double, 3> N{}, D{};  // shape functions, and their derivatives in the arc length
     double cos0 = 1.0, sin0 = 0.0;   // direction of the interpolated axis r₀, on which the section stands
     double stretch0 = 1.0;           // |r₀′|, which is not quite 1
+    ExactBeamStiffness stiffness{};
   };
   // Derivatives of the energy per length in u′ (x, z), θ and θ′.
   struct First {
@@ -77,7 +80,6 @@ class ReissnerBeam final : public Element {
 
   int order_;
   std::array<GaussPoint, 2> points_{};  // the first `order_`
-  ExactBeamStiffness stiffness_;
 };
 
 /// Potential of a dead load per length of the undeformed axis on an ReissnerBeam, whose unknowns it has, or on another

@@ -18,7 +18,7 @@ StretchReference stretch_reference(const ImperfectAxis& shape, double from, doub
   static_assert(StretchReference::samples == DividedPart::points);
   const DividedPart part = shape.divided(from, to, inside);
   const DeviatedPoint &first = part.at.front(), &last = part.at.back();
-  StretchReference stretch{.length = part.length, .chord = part.chord};
+  StretchReference stretch{.length = part.length, .chord = part.chord, .ends = {from, to}};
   for (std::size_t k = 0; k < part.at.size(); ++k) {
     const bool end = k == 0 || k + 1 == part.at.size();
     if (!end && inside == DividedPart::Inside::left_out) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "core/types.hpp"
 #include "elements/axis.hpp"
+#include "elements/section.hpp"
 
 namespace arcwall {
 
@@ -15,9 +17,28 @@ struct StretchReference {
   double length = 0.0;                   ///< of the axis between them, imperfection included [length]
   Vec2 chord = Vec2::Zero();             ///< from the first end to the second [length]
   std::array<double, samples> angles{};  ///< of the axis' tangent, continuous [rad]
+  std::array<double, 2> ends{};          ///< S1 and S2
   std::array<double, 2> length_rate{};
   std::array<Vec2, 2> chord_rate{Vec2::Zero(), Vec2::Zero()};
   std::array<std::array<double, samples>, 2> angle_rate{};
+  std::array<double, 2> end_rate{1.0, 1.0};  ///< of S1 and of S2
+};
+
+/// How the section of a slender beam varies along its axis.
+struct StretchTaper {
+  std::shared_ptr<const SectionTaper> sizes{};
+  double length = 0.0;      ///< of the axis, from S = 0 [length]
+  double A = 0.0, I = 0.0;  ///< of the section that has the stiffnesses EA and EI of the beam
+
+  /// Returns EA and EI of that section over those at S, as `softness`, and the inverse, as `stiffness`.
+  double softness(double S) const { return A / sizes->at(S / length).A; }
+  double stiffness(double S) const { return sizes->at(S / length).I / I; }
+  /// Returns their derivatives by S.
+  double softness_rate(double S) const {
+    const double here = sizes->at(S / length).A;
+    return -A * sizes->at(S / length, 1).A / (length * here * here);
+  }
+  double stiffness_rate(double S) const { return sizes->at(S / length, 1).I / (length * I); }
 };
 
 /// The stretch between two points of a member's stress-free shape. Angles inside that are left out are NaN.

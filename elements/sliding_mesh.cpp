@@ -201,12 +201,12 @@ SlidingStructureMesh::Ends SlidingStructureMesh::ends(Index strand, Index positi
 StretchReference SlidingStructureMesh::reference(Index strand, Index position, const MeshState& now) const {
   const SlidingStructure::Run& described = structure_.at(strand);
   using Inside = DividedPart::Inside;
-  return stretch_reference(
-      *described.shape, described.offset + coordinate(strand, position, now.s),
-      described.offset + coordinate(strand, position + 1, now.s),
-      described.theory == Theory::elastica || !described.thermal.is_zero() || described.load_turns()
-          ? Inside::wanted
-          : Inside::left_out);
+  return stretch_reference(*described.shape, described.offset + coordinate(strand, position, now.s),
+                           described.offset + coordinate(strand, position + 1, now.s),
+                           described.theory == Theory::elastica || described.section.taper ||
+                                   !described.thermal.is_zero() || described.load_turns()
+                               ? Inside::wanted
+                               : Inside::left_out);
 }
 
 SlidingStructureMesh::Response SlidingStructureMesh::respond(Index strand, Index position, const MeshState& now,

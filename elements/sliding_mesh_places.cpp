@@ -16,9 +16,10 @@ AxisStrain SlidingStructureMesh::strain_of(const Response& response, Index stran
                                            const MeshState& now) const {
   const ElementBeside of = beside(position, side);
   const SlidingStructure::Run& described = structure_.at(strand);
-  const double EA = of.sign * described.section.EA(), EI = of.sign * described.section.EI();
   const Vec2 t = unit_tangent(node(strand, position, now).angle);
   const MaterialPoint here{.strand = strand, .s = coordinate(strand, position, now.s)};
+  const SectionStiffness section = structure_.stiffness(here);
+  const double EA = of.sign * section.EA, EI = of.sign * section.EI;
   const auto force = response.force.segment<2>(of.place);
   return {.curvature = structure_.natural_curvature(here, now.lambda) + response.force[of.turn()] / EI,
           .stretch = 1.0 + described.thermal.strain.at(now.lambda) + force.dot(t) / EA};
@@ -34,7 +35,8 @@ AxisStrainGradient SlidingStructureMesh::node_strain_gradient(Index strand, Inde
   const ElementBeside of = beside(position, side);
   const Index e = of.element, place = of.place, turn = of.turn(), n = unknowns(), m = breakpoints();
   const SlidingStructure::Run& described = structure_.at(strand);
-  const double EA = of.sign * described.section.EA(), EI = of.sign * described.section.EI();
+  const SectionStiffness section = structure_.stiffness({.strand = strand, .s = coordinate(strand, position, now.s)});
+  const double EA = of.sign * section.EA, EI = of.sign * section.EI;
   const Response response = with_end_forces(respond(strand, e, now, true), strand, e, now);
   const Vec2 t = unit_tangent(node(strand, position, now).angle);
   const auto force = response.force.segment<2>(place);
@@ -68,6 +70,11 @@ AxisStrainGradient SlidingStructureMesh::strain_gradient(Index k, At side, const
   };
   AxisStrainGradient strain = node_strain_gradient(strand, position, side, now);
   strain.curvature_ds[k] += (natural(S + step) - natural(S - step)) / (2.0 * step);
+  const MaterialPoint here{.strand = strand, .s = S};
+  const SectionStiffness section = structure_.stiffness(here), rate = structure_.stiffness(here, 1);
+  const double free = 1.0 + structure_.at(strand).thermal.strain.at(now.lambda);
+  strain.curvature_ds[k] -= (strain.curvature - natural(S)) * rate.EI / section.EI;
+  strain.stretch_ds[k] -= (strain.stretch - free) * rate.EA / section.EA;
   return strain;
 }
 

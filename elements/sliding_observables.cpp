@@ -9,8 +9,8 @@ PlaceObservable::PlaceObservable(const SlidingStructure& structure, const Materi
                                  MemberObservable::Component component)
     : point_(point), component_(component) {
   using Component = MemberObservable::Component;
-  if (component == Component::face_above_z) offset_ = structure.half_height(point.strand);
-  if (component == Component::face_below_z) offset_ = -structure.half_height(point.strand);
+  if (component == Component::face_above_z) offset_ = structure.half_height_at(point);
+  if (component == Component::face_below_z) offset_ = -structure.half_height_at(point);
   const AxisPlace perfect = structure.undeformed(point, false);
   switch (component) {
     case Component::x:

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/unit_tangent.hpp"
+#include "elements/member_elements.hpp"
 #include "elements/sliding_mesh.hpp"
 
 namespace arcwall {
@@ -17,9 +18,17 @@ double SlidingStructure::elements_between(Index strand, double from, double to) 
 }
 
 SlenderSection SlidingStructure::Run::slender() const {
-  SlenderSection slender{.EA = section.EA(), .EI = section.EI()};
-  if (theory == Theory::elastica) slender.order = order == 6 ? ElasticaOrder::six : ElasticaOrder::four;
-  return slender;
+  return slender_section(section, theory, order, axis->length());
+}
+
+SectionStiffness SlidingStructure::stiffness(const MaterialPoint& point, int derivative) const {
+  const Run& strand = at(point.strand);
+  const Section& section = strand.section;
+  if (!section.taper) return derivative == 0 ? SectionStiffness{section.EA(), section.EI()} : SectionStiffness{};
+  const double L = strand.axis->length(), scale = section.E * std::pow(L, -derivative);
+  const SectionSizes sizes =
+      section.taper->at((strand.offset + std::clamp(point.s, 0.0, strand.length)) / L, derivative);
+  return {.EA = scale * sizes.A, .EI = scale * sizes.I};
 }
 
 double SlidingStructure::natural_curvature(const MaterialPoint& point, double lambda) const {
@@ -288,7 +297,7 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
       with_terms, [this](Index node, Index rotation) { return carries_force_alone(node, rotation); }, alike);
   for (SlidingStructure::Run& strand : structure->runs_)
     if (strand.theory == Theory::euler_bernoulli && strand.shape->is_straight() && strand.loads.empty() &&
-        !strand.has_foundation() && strand.pressure.is_zero() && strand.thermal.is_zero())
+        !strand.has_foundation() && strand.pressure.is_zero() && strand.thermal.is_zero() && !strand.section.taper)
       strand.beams.emplace(*strand.shape, strand.section.EA(), strand.section.EI());
   return structure;
 }

@@ -32,12 +32,15 @@ class SlidingStructure final : public SlidingBody {
 
   Index strands() const override { return static_cast<Index>(runs_.size()); }
   double length(Index strand) const override { return at(strand).length; }
+  /// Of a section that tapers only its axis can be in contact: the half height in the member's middle.
   double half_height(Index strand) const override { return 0.5 * at(strand).section.height.value_or(0.0); }
+  double half_height_at(const MaterialPoint& point) const {
+    return 0.5 * at(point.strand).section_at(point.s).height.value_or(0.0);
+  }
   double elements_between(Index strand, double from, double to) const override;
   double natural_curvature(const MaterialPoint& point, double lambda) const override;
   double natural_curvature_second(const MaterialPoint& point) const override;
-  double bending_stiffness(Index strand) const override { return at(strand).section.EI(); }
-  double axial_stiffness(Index strand) const override { return at(strand).section.EA(); }
+  SectionStiffness stiffness(const MaterialPoint& point, int derivative = 0) const override;
   FreeStrain free_strain(Index strand, double lambda) const override {
     const Driven& strain = at(strand).thermal.strain;
     return {.value = strain.at(lambda), .rate = strain.proportional};
@@ -177,6 +180,8 @@ class SlidingStructure final : public SlidingBody {
     }
 
     SlenderSection slender() const;
+    // At a place of the strand.
+    Section section_at(double s) const { return section.at((offset + s) / axis->length()); }
     bool has_foundation() const { return !foundation.is_zero(); }
   };
 

@@ -76,7 +76,8 @@ struct MemberMesh {
   std::vector<Index> nodes{};                     ///< index of each node in the structure
   std::vector<std::optional<Index>> rotations{};  ///< degree of freedom of the rotation at each node; empty for a bar
   AxisPoints axis{}, shape{};                     ///< without and with imperfection
-  std::optional<double> height{};                 ///< of the section
+  std::optional<double> height{};                 ///< of the section; of one that tapers, in the middle
+  std::shared_ptr<const SectionTaper> taper{};    ///< of the section; null: uniform
   std::vector<Index> middle_nodes{};              ///< of each element, in the structure; may be empty
   std::vector<Index> middle_rotations{};          ///< their degrees of freedom, same size
   double length = 0.0;                            ///< of the axis [length]
@@ -86,6 +87,11 @@ struct MemberMesh {
   QuadraticTerm quadratic = QuadraticTerm::fixed;
 
   double fraction(std::size_t k) const { return double(k) / double(nodes.size() - 1); }
+
+  /// Returns the height of the section at a fraction of the length; empty if it is unknown.
+  std::optional<double> height_at(double fraction) const {
+    return taper && height ? taper->at(fraction).height : height;
+  }
 
   /// Returns the section at node k of the mesh.
   MemberSection section(std::size_t k) const;

@@ -99,6 +99,7 @@ Index StructureBuilder::add_member(MemberDescription member) {
                   .axis = points({}),
                   .shape = points(member.imperfection),
                   .height = member.section.height,
+                  .taper = member.section.taper,
                   .length = member.axis->length(),
                   .quadratic = member.quadratic};
   for (int k = 0; k <= member.elements; ++k) {

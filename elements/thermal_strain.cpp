@@ -67,6 +67,7 @@ HeatedStretch heated(const StretchReference& cold, const ThermalStrain& thermal,
     hot.chord_rate[i] *= s;
   }
   out.by_lambda = hot;
+  out.by_lambda.end_rate = {0.0, 0.0};
   out.by_lambda.length_rate = {s_rate * h, 0.0};
   out.by_lambda.chord_rate = {s_rate * chord + s * kappa_rate * chord_by_kappa, Vec2::Zero()};
   for (std::size_t k = 0; k < hot.angles.size(); ++k) {

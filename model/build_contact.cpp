@@ -8,6 +8,7 @@
 #include <map>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "contact/profile.hpp"
 #include "core/text.hpp"
@@ -17,14 +18,17 @@ namespace arcwall {
 
 namespace {
 
-// Half the height of a member whose faces a wall is touched by; 0 where that is the axis.
-double faces_of(const deck::Wall& wall, const MemberMesh& mesh) {
-  return wall.contact_surface == deck::ContactSurface::axis || wall.outline ? 0.0 : 0.5 * mesh.height.value_or(0.0);
+// Half the height of a section whose faces a wall is touched by; 0 where that is the axis.
+double faces_of(const deck::Wall& wall, double height) {
+  return wall.contact_surface == deck::ContactSurface::axis || wall.outline ? 0.0 : 0.5 * height;
 }
+
+double height_of(const MemberMesh& mesh, double fraction) { return mesh.height_at(fraction).value_or(0.0); }
 
 // Offsets from the axis of the points that may touch.
 std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, const MemberSection& section) {
-  return FacedObstacle{.side = wall.side, .half_height = faces_of(wall, mesh)}.offsets(section.shape.angle);
+  return FacedObstacle{.side = wall.side, .half_height = faces_of(wall, height_of(mesh, section.fraction))}.offsets(
+      section.shape.angle);
 }
 
 // The deepest penetration of one wall at rest.
@@ -316,7 +320,9 @@ bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlac
                  "use contact_surface = \"axis\", or a profile");
     return false;
   }
-  const double off = kept_off(wall, mesh.height.value_or(0.0));
+  double height = 0.0;  // the greatest
+  for (std::size_t k = 0; k < mesh.nodes.size(); ++k) height = std::max(height, height_of(mesh, mesh.fraction(k)));
+  const double off = kept_off(wall, height);
   const std::vector<deck::Wall> parts = parts_of(wall);
   if (off == 0.0 && std::any_of(parts.begin(), parts.end(), has_sharp_corners) && !has_knife_edge(wall, known)) {
     problems.add(
@@ -341,10 +347,10 @@ bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlac
 
 }  // namespace
 
-FacedObstacle faced_obstacle(const deck::Wall& wall, const MemberMesh& mesh) {
-  return {.obstacle = obstacle_of(wall, kept_off(wall, mesh.height.value_or(0.0))),
-          .side = wall.side,
-          .half_height = faces_of(wall, mesh)};
+FacedObstacle faced_obstacle(const deck::Wall& wall, const MemberMesh& mesh, double fraction) {
+  const double height = height_of(mesh, fraction);
+  return {
+      .obstacle = obstacle_of(wall, kept_off(wall, height)), .side = wall.side, .half_height = faces_of(wall, height)};
 }
 
 PinchedPlaces pinched_places(const deck::Deck& deck, const SlidingStructure& structure) {
@@ -365,16 +371,16 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
     std::map<double, std::shared_ptr<const Obstacle>> obstacles;  // by how far axes stay off
     for (const MemberMesh& mesh : structure.members()) {
       if (!concerns(wall, mesh.name) || !can_touch(wall, mesh, known, deck.frame.factor(), problems)) continue;
-      const double off = kept_off(wall, mesh.height.value_or(0.0));
-      std::shared_ptr<const Obstacle>& obstacle = obstacles[off];
-      if (!obstacle) obstacle = obstacle_of(wall, off);
       if (wall.contact_surface == deck::ContactSurface::face && !wall.outline && !mesh.rotations.front()) {
         problems.add(wall.position, "wall.contact_surface",
                      "member \"" + mesh.name + "\" is a truss and has no faces that turn",
                      "use contact_surface = \"axis\"");
         continue;
       }
-      for (const MemberSection& section : mesh.contact_sections())
+      for (const MemberSection& section : mesh.contact_sections()) {
+        const double off = kept_off(wall, height_of(mesh, section.fraction));
+        std::shared_ptr<const Obstacle>& obstacle = obstacles[off];
+        if (!obstacle) obstacle = obstacle_of(wall, off);
         for (const double offset : offsets(wall, mesh, section)) {
           auto point = std::make_unique<MemberPoint>(structure, section, offset);
           const Vec2 place = point->position(rest);
@@ -418,6 +424,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
                                .straight = obstacle->knots().empty()});
           candidates.push_back(std::move(candidate));
         }
+      }
     }
     if (deepest.depth > wall.interference + round_off)
       problems.add(
@@ -445,7 +452,7 @@ Vec2 way_out(const deck::Wall& wall, const Structure& structure) {
   Vec2 normal = Vec2::Zero();
   for (const MemberMesh& mesh : structure.members()) {
     if (!concerns(wall, mesh.name)) continue;
-    const std::shared_ptr<const Obstacle> obstacle = obstacle_of(wall, kept_off(wall, mesh.height.value_or(0.0)));
+    std::shared_ptr<const Obstacle> obstacle;
     const auto look_at = [&](const Vec2& place) {
       const LinearField gap = obstacle->gap_slope(place, 0.0);
       if (!(gap.value < least)) return;
@@ -453,7 +460,10 @@ Vec2 way_out(const deck::Wall& wall, const Structure& structure) {
       normal = Vec2(gap.x, gap.z).normalized();
     };
     std::vector<Vec2> before;
+    double off = -1.0;
     for (const MemberSection& section : mesh.contact_sections()) {
+      if (const double now = kept_off(wall, height_of(mesh, section.fraction)); std::exchange(off, now) != now)
+        obstacle = obstacle_of(wall, now);
       std::vector<Vec2> here;
       for (const double offset : offsets(wall, mesh, section))
         here.push_back(MemberPoint(structure, section, offset).position(rest));

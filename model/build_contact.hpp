@@ -33,7 +33,7 @@ std::unique_ptr<Outline> outline_of(const deck::Wall& wall);
 bool concerns(const deck::Wall& wall, const std::string& member);
 
 /// What stands in the way of a member where the deck has a wall, and the faces that it is touched by.
-FacedObstacle faced_obstacle(const deck::Wall& wall, const MemberMesh& mesh);
+FacedObstacle faced_obstacle(const deck::Wall& wall, const MemberMesh& mesh, double fraction);
 
 /// Holds the rotations of straight members that lie on a line between two rigid walls which leave no clearance, where
 /// sections turn with the axis: between its nodes it is on that line, too.

@@ -269,7 +269,8 @@ std::shared_ptr<const Observable> gap(const deck::Deck& deck, const Measured& fr
   }
   if (monitor.component != deck::Component::gap)
     return wall_force(deck, from, monitor, end->mesh->name, end->mesh->fraction(end->position));
-  return from.body.gap(index_of(*end->mesh, from.structure), end->position, faced_obstacle(wall, *end->mesh));
+  return from.body.gap(index_of(*end->mesh, from.structure), end->position,
+                       faced_obstacle(wall, *end->mesh, end->mesh->fraction(end->position)));
 }
 
 // --- what a member carries ------------------------------------------------------------------------------------------
@@ -299,19 +300,35 @@ struct AlongMember {
   double negligible = 0.0;
 };
 
+// What forces and moments contribute to the stress in an outer fibre.
+struct OuterFibre {
+  double by_force, by_moment;
+};
+
+OuterFibre outer_fibre(const deck::Section& section, double fraction, double unit) {
+  const deck::SectionProperties at = properties(section, fraction);
+  return {.by_force = 1.0 / (at.A * unit), .by_moment = 0.5 * at.height.value_or(0.0) / (at.I * unit)};
+}
+
 // The stresses N/A ± M h/2I in both outer fibres, over what a stress of 1 counts.
 AlongMember stresses_in(const deck::Deck& deck, const Measured& from, const deck::Member& member, double unit) {
-  const deck::SectionProperties section = properties(*deck::find(deck.sections, member.section));
-  const double by_force = 1.0 / (section.A * unit), by_moment = 0.5 * section.height.value_or(0.0) / (section.I * unit);
+  const deck::Section& section = *deck::find(deck.sections, member.section);
+  const OuterFibre middle = outer_fibre(section, 0.5, unit);
   const double force = from.structure.force_roundoff(), moment = force * from.structure.length_scale();
-  AlongMember along{.member = member.name, .negligible = by_force * force + by_moment * moment};
+  AlongMember along{.member = member.name, .negligible = middle.by_force * force + middle.by_moment * moment};
+  const auto fibre_at = [section, middle, unit, tapers = tapers(section)](const MemberStretch& at, double xi) {
+    return tapers ? outer_fibre(section, std::clamp(at.from + xi * (at.to - at.from), 0.0, 1.0), unit) : middle;
+  };
   if (member.theory == Theory::truss) {
-    along.quantities.emplace_back([=](const MemberStretch& at, double xi) { return by_force * at.axial_force(xi); });
+    along.quantities.emplace_back(
+        [=](const MemberStretch& at, double xi) { return middle.by_force * at.axial_force(xi); });
     return along;
   }
-  for (const double fibre : {by_moment, -by_moment})
-    along.quantities.emplace_back(
-        [=](const MemberStretch& at, double xi) { return by_force * at.axial_force(xi) + fibre * at.moment(xi); });
+  for (const double side : {1.0, -1.0})
+    along.quantities.emplace_back([=](const MemberStretch& at, double xi) {
+      const OuterFibre fibre = fibre_at(at, xi);
+      return fibre.by_force * at.axial_force(xi) + side * fibre.by_moment * at.moment(xi);
+    });
   return along;
 }
 

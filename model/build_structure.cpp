@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "elements/mechanism.hpp"
 
@@ -35,7 +36,7 @@ std::unique_ptr<Axis> make_axis(const deck::Member& member, const Vec2& from, co
 // Shear area over area of the exact theory: Cowper's (1966) for no lateral contraction, of which 5/6 for the rectangle
 // is the best known. A ring of the radii's ratio m has 6 (1 + m²)² / (7 (1 + m²)² + 20 m²): 6/7 for a circle, ½ for a
 // thin tube. A general section counts as a rectangle.
-double shear_correction(const deck::Section& section) {
+double shear_correction(const deck::Section& section, double fraction) {
   struct Correction {
     static double ring(double m) {
       const double square = (1.0 + m * m) * (1.0 + m * m);
@@ -43,10 +44,17 @@ double shear_correction(const deck::Section& section) {
     }
     double operator()(const deck::Rectangle&) const { return 5.0 / 6.0; }
     double operator()(const deck::Circle&) const { return ring(0.0); }
-    double operator()(const deck::Tube& tube) const { return ring(1.0 - tube.thickness / tube.radius); }
+    double operator()(const deck::Tube& tube) const {
+      const auto at = [&](double from, const std::optional<double>& to) {
+        return from + fraction * (to.value_or(from) - from);
+      };
+      return ring(1.0 - at(tube.thickness, tube.thickness_to) / at(tube.radius, tube.radius_to));
+    }
     double operator()(const deck::General&) const { return 5.0 / 6.0; }
+    double operator()(const deck::SectionTable&) const { return 5.0 / 6.0; }
+    double fraction;
   };
-  return section.shear_correction.value_or(std::visit(Correction{}, section.shape));
+  return section.shear_correction.value_or(std::visit(Correction{fraction}, section.shape));
 }
 
 std::vector<SectionPoint> section_points(const deck::Section& section) {
@@ -57,15 +65,38 @@ std::vector<SectionPoint> section_points(const deck::Section& section) {
     std::vector<SectionPoint> operator()(const deck::Circle& of) const { return circle_points(of.radius); }
     std::vector<SectionPoint> operator()(const deck::Tube& of) const { return tube_points(of.radius, of.thickness); }
     std::vector<SectionPoint> operator()(const deck::General&) const { return {}; }  // refused by the reader
+    std::vector<SectionPoint> operator()(const deck::SectionTable&) const { return {}; }
   };
   return std::visit(Points{}, section.shape);
+}
+
+SectionSizes sizes_of(const deck::Section& section, double fraction) {
+  const deck::SectionProperties properties = deck::properties(section, fraction);
+  return {.A = properties.A,
+          .I = properties.I,
+          .height = properties.height.value_or(0.0),
+          .shear_area = properties.shear_area.value_or(shear_correction(section, fraction) * properties.A)};
+}
+
+std::shared_ptr<const SectionTaper> taper_of(const deck::Section& section) {
+  if (!deck::tapers(section)) return nullptr;
+  std::vector<double> breaks{0.0, 1.0};
+  if (const auto* table = std::get_if<deck::SectionTable>(&section.shape)) breaks = table->at;
+  if (std::holds_alternative<deck::Tube>(section.shape)) {  // its shear correction is no polynomial
+    constexpr int parts = 16;
+    breaks.clear();
+    for (int i = 0; i <= parts; ++i) breaks.push_back(double(i) / parts);
+  }
+  return std::make_shared<SectionTaper>(std::move(breaks),
+                                        [&](double fraction) { return sizes_of(section, fraction); });
 }
 
 Section section_of(const deck::Deck& deck, const deck::Member& member) {
   const deck::Section& described = *deck::find(deck.sections, member.section);
   const deck::Material& material = *deck::find(deck.materials, member.material);
-  const deck::SectionProperties properties = deck::properties(described);
-  Section section{.E = material.E, .A = properties.A, .I = properties.I, .height = properties.height};
+  const deck::SectionProperties properties = deck::properties(described, 0.5);
+  Section section{
+      .E = material.E, .A = properties.A, .I = properties.I, .height = properties.height, .taper = taper_of(described)};
   const bool essenburg = member.theory == Theory::essenburg;
   if (member.theory != Theory::reissner && !essenburg) return section;
   section.G = material.E / (2.0 * (1.0 + material.nu.value()));
@@ -74,13 +105,14 @@ Section section_of(const deck::Deck& deck, const deck::Member& member) {
     section.points = section_points(described);
     return section;
   }
-  section.shear_area = properties.shear_area.value_or(shear_correction(described) * properties.A);
+  section.shear_area = sizes_of(described, 0.5).shear_area;
   return section;
 }
 
 // What can move without strain does not depend on how stiff a member is in bending and shear, but shows best where both
 // are as stiff as the axis: in a thin beam shear is far stiffer than bending.
 Section balanced(Section section, double length) {
+  section.taper = nullptr;
   section.I = section.A * length * length;
   section.G = section.E;
   section.shear_area = section.A;

@@ -55,7 +55,8 @@ bool wants_increments(const deck::Deck& deck) { return deck.path.method == deck:
 
 bool may_slide(const deck::Deck& deck, const StructureBuilder& builder) {
   return !deck.walls.empty() && points_of_contact(deck).points == deck::ContactPoints::moving &&
-         deck.contact.method == ContactLaw::Method::rigid && !wants_increments(deck) && builder.can_slide();
+         deck.contact.method == ContactLaw::Method::rigid && !wants_increments(deck) && builder.can_slide() &&
+         why_tapers_hold_contact(deck).empty();
 }
 
 void check_hollow_corners(const deck::Deck& deck, DeckProblems& problems) {
@@ -83,6 +84,11 @@ bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::
                  "points = \"moving\" does not support walls without clearance on both sides of a member, such as " +
                      held->label().wall,
                  "use \"nodes\", or leave a clearance");
+    return false;
+  }
+  if (const std::string why = why_tapers_hold_contact(deck); !why.empty()) {
+    problems.add({}, "contact.points", why,
+                 "use \"nodes\", or contact_surface = \"axis\" and a section without a table");
     return false;
   }
   if (may_slide(deck, builder)) return true;
@@ -171,9 +177,11 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
   if (!wants_increments(deck)) return false;
   const bool possible = structure.can_be_updated();
   if (!possible)
-    problems.add(deck.path.position, "path.method",
-                 "method \"incremental\" needs members of theory \"euler-bernoulli\" or \"essenburg\" throughout",
-                 "use \"spherical\"");
+    problems.add(
+        deck.path.position, "path.method",
+        "method \"incremental\" needs members of theory \"euler-bernoulli\" or \"essenburg\" throughout, whose "
+        "sections do not taper",
+        "use \"spherical\"");
   for (const deck::Load& load : deck.loads)
     if (load.constant)
       problems.add(load.position, "load", "method \"incremental\" has no constant loads",

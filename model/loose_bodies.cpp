@@ -137,10 +137,13 @@ double softest_stiffness(const deck::Deck& deck, const Structure& structure) {
   double stiffness = infinity;
   for (std::size_t m = 0; m < deck.members.size(); ++m) {
     const deck::Member& member = deck.members[m];
-    const deck::SectionProperties section = deck::properties(*deck::find(deck.sections, member.section));
     const double E = deck::find(deck.materials, member.material)->E, length = structure.members()[m].length;
-    stiffness = std::min(stiffness, member.theory == Theory::truss ? E * section.A / length
-                                                                   : 3.0 * E * section.I / (length * length * length));
+    for (const double end : {0.0, 1.0}) {  // of a section that tapers
+      const deck::SectionProperties section = deck::properties(*deck::find(deck.sections, member.section), end);
+      stiffness =
+          std::min(stiffness, member.theory == Theory::truss ? E * section.A / length
+                                                             : 3.0 * E * section.I / (length * length * length));
+    }
   }
   return stiffness;
 }

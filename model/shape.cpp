@@ -116,7 +116,7 @@ std::vector<double> section_heights(const deck::Deck& deck) {
   for (const deck::Member& member : deck.members) {
     const deck::Section* section = find(deck.sections, member.section);
     const bool beam = member.theory != Theory::truss && section != nullptr;
-    heights.push_back(beam ? properties(*section).height.value_or(0.0) : 0.0);
+    heights.push_back(beam && !height_tapers(*section) ? properties(*section, 0.0).height.value_or(0.0) : 0.0);
   }
   return heights;
 }

@@ -46,7 +46,8 @@ struct WallShape {
   bool moves = false;                  ///< λ moves it
 };
 
-/// Returns the section heights of the members, in the deck's order; 0 for bars and unknown heights [length].
+/// Returns the section heights of the members, in the deck's order; 0 for bars and heights that are unknown
+/// or taper [length].
 std::vector<double> section_heights(const deck::Deck& deck);
 
 /// Returns the walls at their positions at λ.

@@ -134,13 +134,14 @@ std::vector<Surface> surfaces(const deck::Deck& deck, double lambda) {
 }
 
 // To the nearest wall in the member's way, of the nearer face where faces touch; `most` where there is none as near.
-double gap_at(const Vec2& position, double angle, const MemberMesh& mesh, const std::vector<Surface>& surfaces,
-              double most) {
+double gap_at(const Vec2& position, double angle, double fraction, const MemberMesh& mesh,
+              const std::vector<Surface>& surfaces, double most) {
   const Vec2 normal(-std::sin(angle), std::cos(angle));
   double least = most;
   for (const auto& [wall, obstacle, lambda] : surfaces) {
     if (!concerns(wall, mesh.name)) continue;
-    const double half = wall.contact_surface == deck::ContactSurface::face ? 0.5 * mesh.height.value_or(0.0) : 0.0;
+    const double half =
+        wall.contact_surface == deck::ContactSurface::face ? 0.5 * mesh.height_at(fraction).value_or(0.0) : 0.0;
     if (wall.outline) {
       least = std::min(least, obstacle->gap_slope(position, lambda).value - half);
       continue;
@@ -161,7 +162,8 @@ struct ContactArrays {
            const deck::Frame& frame, double most) {
     const std::size_t first = gap.size();
     for (const ShapePoint& point : member.points)
-      gap.push_back(frame.factor() * gap_at(frame.here(point.position), point.angle, mesh, surfaces, most));
+      gap.push_back(frame.factor() *
+                    gap_at(frame.here(point.position), point.angle, point.fraction, mesh, surfaces, most));
     pressure.resize(gap.size(), 0.0);
     force.resize(3 * gap.size(), 0.0);
     for (const ContactMark& mark : shape.contacts) {

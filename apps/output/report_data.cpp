@@ -170,18 +170,25 @@ GreatestForces greatest_forces(const ShapePictures& shapes) {
   return greatest;
 }
 
-// Of each member a list of [point of the path, fraction, N, Q, M].
-OrderedJson forces_json(const std::vector<std::vector<ForceSample>>& forces, const GreatestForces& greatest) {
+// Of each member a list of [point of the path, fraction, N, Q, M], and A, I, EI and half the height of a section that
+// tapers.
+OrderedJson forces_json(const std::vector<std::vector<ForceSample>>& forces, const std::vector<DrawnMember>& drawn,
+                        const GreatestForces& greatest) {
   constexpr int digits = 6;
   constexpr double part = 1e-10;  // forces of elements are differences of large numbers
   OrderedJson members = OrderedJson::array();
-  for (const auto& member : forces) {
+  for (std::size_t m = 0; m < forces.size(); ++m) {
     OrderedJson& samples = members.emplace_back(OrderedJson::array());
-    for (const ForceSample& sample : member)
+    for (const ForceSample& sample : forces[m]) {
       samples.push_back({sample.at, number(sample.fraction, digits),
                          number(without_roundoff(sample.axial_force, part * greatest.force), digits),
                          number(without_roundoff(sample.shear_force, part * greatest.force), digits),
                          number(without_roundoff(sample.moment, part * greatest.moment), digits)});
+      if (!drawn[m].section_at) continue;
+      const DrawnSection here = drawn[m].section_at(sample.fraction);
+      for (const double size : {here.A, here.I, here.EI, here.half_height})
+        samples.back().push_back(number(size, digits));
+    }
   }
   return members;
 }
@@ -192,10 +199,10 @@ OrderedJson members_json(const ShapePictures& shapes) {
     list.push_back({{"name", shown_name(member.name)},
                     {"from", shown_name(member.from)},
                     {"to", shown_name(member.to)},
-                    {"A", member.A},
-                    {"I", member.I},
-                    {"EI", member.EI},
-                    {"half", member.half_height}});
+                    {"A", member.section.A},
+                    {"I", member.section.I},
+                    {"EI", member.section.EI},
+                    {"half", member.section.half_height}});
   return list;
 }
 
@@ -216,7 +223,7 @@ OrderedJson shape_json(const ShapePictures& shapes, const ShapePicture& picture,
           {"paths", picture.paths},
           {"moves", picture.moves},
           {"contacts", std::move(contacts)},
-          {"forces", forces_json(picture.forces, greatest)}};
+          {"forces", forces_json(picture.forces, shapes.members, greatest)}};
 }
 
 OrderedJson shapes_json(const ShapePictures& shapes, const GreatestForces& greatest) {

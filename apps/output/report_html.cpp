@@ -540,10 +540,15 @@ std::string member_text(const deck::Deck& deck, const deck::Member& member) {
   if (const deck::Material* const material = find(deck.materials, member.material))
     text += quantity("E", material->E, deck::unit::stress);
   if (const deck::Section* const section = find(deck.sections, member.section)) {
-    const deck::SectionProperties of = properties(*section);
-    text += quantity("A", of.A, deck::unit::area);
-    if (member.theory != Theory::truss) text += quantity("I", of.I, deck::unit::second_moment);
-    if (of.height) text += quantity("h", *of.height, deck::unit::length);
+    const auto add = [&](const deck::SectionProperties& of) {
+      text += quantity("A", of.A, deck::unit::area);
+      if (member.theory != Theory::truss) text += quantity("I", of.I, deck::unit::second_moment);
+      if (of.height) text += quantity("h", *of.height, deck::unit::length);
+    };
+    add(properties(*section, 0.0));
+    if (!tapers(*section)) return text;
+    text += "; at its end";
+    add(properties(*section, 1.0));
   }
   return text;
 }

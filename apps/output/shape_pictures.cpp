@@ -383,12 +383,13 @@ std::vector<DrawnMember> drawn_members(const deck::Deck& deck) {
     const deck::Section* section = find(deck.sections, member.section);
     const deck::Material* material = find(deck.materials, member.material);
     if (section == nullptr || material == nullptr) continue;
-    const deck::SectionProperties of = properties(*section);
-    drawn.A = of.A;
-    if (member.theory == Theory::truss) continue;
-    drawn.I = of.I;
-    drawn.EI = material->E * of.I;
-    drawn.half_height = 0.5 * of.height.value_or(0.0);
+    const auto at = [section, E = material->E, bends = member.theory != Theory::truss](double fraction) {
+      const deck::SectionProperties of = properties(*section, fraction);
+      if (!bends) return DrawnSection{.A = of.A};
+      return DrawnSection{.A = of.A, .I = of.I, .EI = E * of.I, .half_height = 0.5 * of.height.value_or(0.0)};
+    };
+    drawn.section = at(0.0);
+    if (tapers(*section)) drawn.section_at = at;
   }
   return members;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,11 +55,15 @@ struct DrawnScenes {
 DrawnScenes scenes_to_draw(const Model& model, const Record& record);
 
 /// What stresses and curvatures follow from.
-struct DrawnMember {
-  std::string name{};
-  std::string from{}, to{};           ///< points of the deck
+struct DrawnSection {
   double A = 0.0, I = 0.0, EI = 0.0;  ///< EI and I of bars are 0
   double half_height = 0.0;           ///< 0 if unknown [length]
+};
+struct DrawnMember {
+  std::string name{};
+  std::string from{}, to{};  ///< points of the deck
+  DrawnSection section{};
+  std::function<DrawnSection(double)> section_at{};  ///< at a fraction of the member's length; empty: uniform
 };
 
 /// What a wall is called, and which members it concerns.

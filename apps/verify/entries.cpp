@@ -62,10 +62,10 @@ double curvature_error(const ElementBeside& beside, int places) {
     const double moment = -r * ends[0][2] + t * ends[1][2] +
                           cross(beside.place(t).position - first - t * chord, ends[0].head<2>()) -
                           t * r / 6.0 * cross(chord, (1.0 + r) * first_load + (1.0 + t) * second_load);
-    const double natural =
-        at.body.natural_curvature({.strand = strand, .s = beside.coordinate(0) + t * length}, at.now.lambda);
+    const MaterialPoint here{.strand = strand, .s = beside.coordinate(0) + t * length};
+    const double natural = at.body.natural_curvature(here, at.now.lambda);
     const double curvature = (beside.place(t + step).angle - beside.place(t - step).angle) / (2.0 * step * length);
-    worst = std::max(worst, std::abs(curvature - natural - moment / at.body.bending_stiffness(strand)));
+    worst = std::max(worst, std::abs(curvature - natural - moment / at.body.bending_stiffness(here)));
   }
   return worst;
 }
@@ -81,7 +81,7 @@ double lumped_curvature(const ElementBeside& beside) {
     const auto behind = at.mesh.end_forces(strand, node.position, at.now);
     force = std::max(force, (before[1] + behind[0]).head<2>().norm());
   }
-  return force * beside.length() / (12.0 * at.body.bending_stiffness(strand));
+  return force * beside.length() / (12.0 * at.body.bending_stiffness({.strand = strand, .s = beside.coordinate(0)}));
 }
 
 // What a gap may be off by between the nodes of an element.

@@ -17,7 +17,7 @@ class ContactSections {
   explicit ContactSections(const Structure& structure) {
     for (const MemberMesh& mesh : structure.members()) {
       OfMember& member = members_[mesh.name];
-      member.half_height = 0.5 * mesh.height.value_or(0.0);
+      member.mesh = &mesh;
       member.sections = mesh.contact_sections();
       std::stable_sort(member.sections.begin(), member.sections.end(), is_before);
     }
@@ -34,11 +34,13 @@ class ContactSections {
     return behind->fraction - label.fraction < label.fraction - before->fraction ? *behind : *before;
   }
 
-  double half_height(const std::string& member) const { return members_.at(member).half_height; }
+  double half_height(const ContactLabel& label) const {
+    return 0.5 * members_.at(label.member).mesh->height_at(at(label).fraction).value_or(0.0);
+  }
 
  private:
   struct OfMember {
-    double half_height = 0.0;
+    const MemberMesh* mesh = nullptr;
     std::vector<MemberSection> sections{};
   };
 
@@ -91,7 +93,7 @@ SectionPoint section_point(const NodeContacts& all, Index j) {
                      .shape_angle = section.shape.angle,
                      .axis_angle = section.axis.angle,
                      .along_director = section.quadratic == QuadraticTerm::director};
-  point.offset = offset_of(model, wall_of(walls, label.wall), j, point, sections.half_height(label.member), rest);
+  point.offset = offset_of(model, wall_of(walls, label.wall), j, point, sections.half_height(label), rest);
   return point;
 }
 
@@ -101,7 +103,7 @@ Touch node_touch(const NodeContacts& all, Index j) {
   const ContactLabel& label = model.contact()->candidate(j).label();
   const PlainWall& wall = wall_of(walls, label.wall);
   const MemberSection& section = sections.at(label);
-  const double half = sections.half_height(label.member);
+  const double half = sections.half_height(label);
   const SectionPoint point = section_point(all, j);
   Touch touch{.label = label, .gap = node_unknowns(structure, section, state)};
   touch.gap.of = [point, half, &wall](const Vector& u) { return wall.gap_to(point.at(u), half); };

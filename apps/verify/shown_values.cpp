@@ -44,7 +44,7 @@ double gap_on_nodes(const Model& model, const State& state, const PlainWall& wal
   const Structure& structure = model.structure();
   const MemberMesh& mesh = structure.members()[at.member];
   const MemberSection section = mesh.section(at.node);
-  const double half = 0.5 * mesh.height.value_or(0.0);
+  const double half = 0.5 * mesh.height_at(mesh.fraction(at.node)).value_or(0.0);
   std::vector<Index> dofs{structure.dof(section.node, Dof::x), structure.dof(section.node, Dof::z)};
   if (section.rotation) dofs.push_back(*section.rotation);
   if (section.thickness) dofs.insert(dofs.end(), {section.thickness->e, section.thickness->xi});
@@ -198,23 +198,49 @@ std::optional<double> own_value(const PointAtHand& at, const deck::Monitor& moni
   return spring_force(at.model, at.point.state, spring, direction_of(monitor.component));
 }
 
-// Section moduli by formulas of their own.
+namespace {
+
+double between(double from, const std::optional<double>& to, double t) {
+  return (1.0 - t) * from + t * to.value_or(from);
+}
+
+// Area and section modulus by formulas of their own.
+std::pair<double, double> area_and_modulus(const deck::Section& section, double t) {
+  if (const auto* of = std::get_if<deck::Rectangle>(&section.shape)) {
+    const double b = between(of->width, of->width_to, t), h = between(of->height, of->height_to, t);
+    return {b * h, b * h * h / 6.0};
+  }
+  if (const auto* of = std::get_if<deck::Circle>(&section.shape)) {
+    const double r = between(of->radius, of->radius_to, t);
+    return {pi * r * r, pi * std::pow(r, 3) / 4.0};
+  }
+  if (const auto* of = std::get_if<deck::Tube>(&section.shape)) {
+    const double R = between(of->radius, of->radius_to, t), r = R - between(of->thickness, of->thickness_to, t);
+    return {pi * (R * R - r * r), pi * (std::pow(R, 4) - std::pow(r, 4)) / (4.0 * R)};
+  }
+  if (const auto* of = std::get_if<deck::General>(&section.shape))
+    return {of->A, of->height ? 2.0 * of->I / *of->height : infinity};
+  const auto& table = std::get<deck::SectionTable>(section.shape);
+  std::size_t k = 1;
+  while (k + 1 < table.at.size() && table.at[k] < t) ++k;
+  const double part = (t - table.at[k - 1]) / (table.at[k] - table.at[k - 1]);
+  const auto value = [&](const std::vector<double>& of) { return between(of[k - 1], of[k], part); };
+  return {value(table.A), table.height.empty() ? infinity : 2.0 * value(table.I) / value(table.height)};
+}
+
+}  // namespace
+
 std::vector<OuterFibres> outer_fibres(const deck::Deck& deck, const deck::Monitor& monitor) {
-  const auto modulus = [](const deck::Section& section) {
-    if (const auto* of = std::get_if<deck::Rectangle>(&section.shape)) return of->width * of->height * of->height / 6.0;
-    if (const auto* of = std::get_if<deck::Circle>(&section.shape)) return pi * std::pow(of->radius, 3) / 4.0;
-    if (const auto* of = std::get_if<deck::Tube>(&section.shape))
-      return pi * (std::pow(of->radius, 4) - std::pow(of->radius - of->thickness, 4)) / (4.0 * of->radius);
-    const auto& general = std::get<deck::General>(section.shape);
-    return general.height ? 2.0 * general.I / *general.height : infinity;
-  };
   std::vector<OuterFibres> all;
   for (std::size_t m = 0; m < deck.members.size(); ++m) {
     const deck::Member& member = deck.members[m];
     if (!monitor.member.empty() && member.name != monitor.member) continue;
     const deck::Section& section = *deck::find(deck.sections, member.section);
-    OuterFibres fibres{.member = m, .area = properties(section).A};
-    if (member.theory != Theory::truss) fibres.modulus = modulus(section);
+    OuterFibres fibres{.member = m};
+    fibres.section = [&section, bends = member.theory != Theory::truss](double fraction) {
+      const auto [area, modulus] = area_and_modulus(section, fraction);
+      return std::pair(area, bends ? modulus : infinity);
+    };
     if (monitor.component == deck::Component::utilisation)
       fibres.unit = deck::find(deck.materials, member.material)->allowable.value_or(infinity);
     all.push_back(fibres);
@@ -237,8 +263,9 @@ void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double 
     look_along(index_of_member(model, monitor.member), [](const ShapePoint& point) { return std::abs(point.moment); });
   } else if (is_stress(monitor.component)) {
     for (const OuterFibres& fibres : outer_fibres(model.deck(), monitor))
-      look_along(fibres.member,
-                 [&](const ShapePoint& point) { return fibres.exertion(point.axial_force, point.moment); });
+      look_along(fibres.member, [&](const ShapePoint& point) {
+        return fibres.exertion(point.axial_force, point.moment, point.fraction);
+      });
   } else {
     const auto& foundation = std::get<deck::Foundation>(deck::find(model.deck().springs, monitor.spring)->kind);
     look_along(index_of_member(model, foundation.member),

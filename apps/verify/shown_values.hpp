@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "apps/verify/point_checks.hpp"
@@ -15,10 +17,12 @@ std::optional<double> own_value(const PointAtHand& at, const deck::Monitor& moni
 /// The outer fibres of a member, as far as a monitor of stress is concerned.
 struct OuterFibres {
   std::size_t member = 0;
-  double area = 0.0, modulus = infinity;  ///< of the section, infinite for trusses [length², length³]
-  double unit = 1.0;                      ///< the stress that counts as 1 [force/length²]
+  /// Area and modulus of the section at a fraction of the length, infinite for trusses [length², length³].
+  std::function<std::pair<double, double>(double)> section{};
+  double unit = 1.0;  ///< the stress that counts as 1 [force/length²]
 
-  double exertion(double axial_force, double moment) const {
+  double exertion(double axial_force, double moment, double fraction) const {
+    const auto [area, modulus] = section(fraction);
     return (std::abs(axial_force) / area + std::abs(moment) / modulus) / unit;
   }
 };

@@ -62,9 +62,10 @@ std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, c
   const double against = wall.has_outline() ? wall.slope_angle(face) : 0.0;
   const double travel = std::cos(place.angle - against) >= 0.0 ? 1.0 : -1.0;
   const double curvature = travel * (at.body.natural_curvature({.strand = node.strand, .s = s}, at.now.lambda) +
-                                     sign * end[2] / at.body.bending_stiffness(node.strand));
-  const double stretch = 1.0 + at.body.free_strain(node.strand, at.now.lambda).value +
-                         sign * end.head<2>().dot(unit_tangent(place.angle)) / at.body.axial_stiffness(node.strand);
+                                     sign * end[2] / at.body.bending_stiffness({.strand = node.strand, .s = s}));
+  const double stretch =
+      1.0 + at.body.free_strain(node.strand, at.now.lambda).value +
+      sign * end.head<2>().dot(unit_tangent(place.angle)) / at.body.axial_stiffness({.strand = node.strand, .s = s});
   const bool is_face = !wall.has_outline() && wall.deck().contact_surface == deck::ContactSurface::face;
   const double offset = is_face ? -wall.side() * half : 0.0;
   const double stretch_there = stretch - offset * curvature;

@@ -51,7 +51,9 @@ void for_each_knot(const Sliding& at, const PlainWall& wall, const Part& part, c
   for (const PlainWall::RateJump& jump : wall.rate_jumps())
     for (Index position = part.first - 1; position <= part.last; ++position)
       if ((x(position) < jump.x) != (x(position + 1) < jump.x))
-        visit(position, wall.side() * at.body.bending_stiffness(part.strand) * jump.jump);
+        visit(position, wall.side() * jump.jump *
+                            at.body.bending_stiffness(
+                                {.strand = part.strand, .s = at.mesh.coordinate(part.strand, position, at.now.s)}));
 }
 
 void add_pulls(const Sliding& at, const PlainWall& wall, const Part& part, std::vector<SplinePull>& to) {

@@ -35,7 +35,8 @@ double roundoff_of_force(const Model& model, const std::string& monitor, deck::C
   if (is_stress(component)) {
     double most = 0.0;
     for (const OuterFibres& fibres : outer_fibres(model.deck(), *deck::find(model.deck().monitors, monitor)))
-      most = std::max(most, fibres.exertion(force, force * length));
+      for (const double fraction : {0.0, 0.5, 1.0})
+        most = std::max(most, fibres.exertion(force, force * length, fraction));
     return most;
   }
   return force;

@@ -190,17 +190,31 @@ Vec2 load_on(const SlidingSetting& setting, const HeldAxis& held, double ahead) 
 
 }  // namespace
 
-// ∓ (EI κ₀″/Λ + q·n), q the load along the body.
+namespace {
+
+// (EI κ₀)″ at a place.
+double natural_moment_second(const SlidingBody& body, const MaterialPoint& here, double lambda) {
+  const double by_curvature = body.bending_stiffness(here) * body.natural_curvature_second(here);
+  const double EI_first = body.stiffness(here, 1).EI, EI_second = body.stiffness(here, 2).EI;
+  if (EI_first == 0.0 && EI_second == 0.0) return by_curvature;
+  const auto natural = [&](double d) { return body.natural_curvature({here.strand, here.s + d}, lambda); };
+  const double natural_first = derivative(natural, difference_step * body.length(here.strand));
+  return by_curvature + 2.0 * EI_first * natural_first + EI_second * natural(0.0);
+}
+
+}  // namespace
+
+// ∓ ((EI κ₀)″/Λ + q·n), q the load along the body.
 double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
   const SlidingBody& body = setting.body;
   const MaterialPoint here{.strand = held.touch.strand, .s = held.s + ahead};
-  const double bending = body.bending_stiffness(here.strand) * body.natural_curvature_second(here) / held.stretch;
+  const double bending = natural_moment_second(body, here, held.lambda) / held.stretch;
   const double side = sign_of(setting.obstacles[held.touch.obstacle].surface->side());
   return -side * held.travel * (bending + load_on(setting, held, ahead).dot(perp(unit_tangent(held.angle))));
 }
 
-// ± [EI (κ̂″ − κ₀″/Λ) + P κ̂ − q·n]. Its sign says whether the body lies on the wall there, its vanishing that it does
-// so by itself.
+// ± [(EI κ̂)″ − (EI κ₀)″/Λ + P κ̂ − q·n]. Its sign says whether the body lies on the wall there, its vanishing that it
+// does so by itself.
 double pressure_to_hold(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
   const SlidingBody& body = setting.body;
   const Index strand = held.touch.strand;
@@ -211,9 +225,12 @@ double pressure_to_hold(const SlidingSetting& setting, const HeldAxis& held, dou
   };
   const double step = 0.01 * body.length(strand);
   const double wall_second = (wall(step) - 2.0 * wall(0.0) + wall(-step)) / (step * step);
+  const double wall_first = (wall(step) - wall(-step)) / (2.0 * step);
   const double strain = held.stretch - 1.0 - body.free_strain(strand, held.lambda).value;
-  const double by_wall =
-      body.bending_stiffness(strand) * wall_second - body.axial_stiffness(strand) * strain * wall(0.0);
+  const MaterialPoint here{.strand = strand, .s = held.s + ahead};
+  const SectionStiffness now = body.stiffness(here);
+  const double by_wall = now.EI * wall_second + 2.0 * body.stiffness(here, 1).EI * wall_first +
+                         body.stiffness(here, 2).EI * wall(0.0) - now.EA * strain * wall(0.0);
   return straight_pressure(setting, held, ahead) + sign_of(obstacle.side()) * by_wall;
 }
 
@@ -269,7 +286,8 @@ double holding_pressure(const SlidingSetting& setting, const SlidingState& at, s
 
 double holding_pressure(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held) {
   const Index strand = held.touch.strand;
-  const double L = setting.body.length(strand), noise = 1e-7 * setting.body.bending_stiffness(strand) / (L * L * L);
+  const double L = setting.body.length(strand),
+               noise = 1e-7 * setting.body.bending_stiffness({strand, held.s}) / (L * L * L);
   const double q = pressure_to_hold(setting, laid_axis(setting, at, held), 0.0);
   return std::abs(q) > noise ? q : 0.0;
 }

@@ -47,7 +47,7 @@ AxisCurve axis_curve(const Obstacle& obstacle, const HeldPlace& held) {
 
 // How the curvature that the axis has without force changes along it.
 struct NaturalCurvature {
-  double first, second;
+  double value, first, second;
 };
 
 NaturalCurvature natural_curvature(const SlidingBody& body, const HeldPlace& held) {
@@ -55,29 +55,43 @@ NaturalCurvature natural_curvature(const SlidingBody& body, const HeldPlace& hel
   const double length = body.length(strand), step = difference_step * length;
   const double s = std::clamp(held.s, 2.0 * step, length - 2.0 * step);
   const auto at = [&](double d) { return body.natural_curvature({.strand = strand, .s = s + d}, held.lambda); };
-  return {.first = derivative(at, step), .second = body.natural_curvature_second({.strand = strand, .s = held.s})};
+  return {.value = body.natural_curvature({.strand = strand, .s = held.s}, held.lambda),
+          .first = derivative(at, step),
+          .second = body.natural_curvature_second({.strand = strand, .s = held.s})};
 }
 
 // ± [(M′/Λ)′ − κ N − q·n] with M = EI (κ − κ₀), κ = Λ κ̂ and N = EA (Λ − 1 − ε₀). Along the body N′ = κ V − q·t with
-// V = −M′/Λ, by which Λ changes.
+// V = −M′/Λ, by which Λ changes. EI and EA may change along it, too.
 double pressure_on_curve(const SlidingSetting& setting, const HeldPlace& held, const NaturalCurvature& natural) {
   const SlidingBody& body = setting.body;
   const Obstacle& obstacle = *setting.obstacles[held.touch.obstacle].surface;
   const Index strand = held.touch.strand;
-  const double EI = body.bending_stiffness(strand), EA = body.axial_stiffness(strand), L = held.stretch;
+  const MaterialPoint here{.strand = strand, .s = held.s};
+  const SectionStiffness section = body.stiffness(here), section_first = body.stiffness(here, 1),
+                         section_second = body.stiffness(here, 2);
+  const double L = held.stretch, strain = L - 1.0 - body.free_strain(strand, held.lambda).value;
   const Vec2 t = unit_tangent(held.angle);
-  const Vec2 load = body.load({.strand = strand, .s = held.s}, held.axis(), L, held.lambda);
+  const Vec2 load = body.load(here, held.axis(), L, held.lambda);
   const AxisCurve curve = axis_curve(obstacle, held);
 
   const double curvature = L * curve.curvature, first = L * L * curve.first, second = L * L * L * curve.second;
-  const double shear = -EI * (first - natural.first) / L, shear_first = -EI * (second - natural.second) / L;
-  const double stretch_first = (curvature * shear - load.dot(t)) / EA;
-  const double stretch_second = (first * shear + curvature * shear_first) / EA;
+  const double bends = curvature - natural.value;
+  const auto moment_first = [&](double first_by) { return section.EI * first_by + section_first.EI * bends; };
+  const auto moment_second = [&](double first_by, double second_by) {
+    return section.EI * second_by + 2.0 * section_first.EI * first_by + section_second.EI * bends;
+  };
+  const double shear = -moment_first(first - natural.first) / L;
+  const double shear_first = -moment_second(first - natural.first, second - natural.second) / L;
+  const double stretch_first = (curvature * shear - load.dot(t) - section_first.EA * strain) / section.EA;
+  const double stretch_second =
+      (first * shear + curvature * shear_first - 2.0 * section_first.EA * stretch_first - section_second.EA * strain) /
+      section.EA;
   const double bends_first = first + stretch_first * curve.curvature - natural.first;
   const double bends_second =
       second + 3.0 * L * stretch_first * curve.first + stretch_second * curve.curvature - natural.second;
-  const double by_bending = EI * (bends_second - bends_first * stretch_first / L) / L;
-  const double force = EA * (L - 1.0 - body.free_strain(strand, held.lambda).value);
+  const double by_bending =
+      (moment_second(bends_first, bends_second) - moment_first(bends_first) * stretch_first / L) / L;
+  const double force = section.EA * strain;
   return sign_of(obstacle.side()) * held.travel * (by_bending - curvature * force - load.dot(perp(t)));
 }
 

@@ -100,7 +100,7 @@ BorderEquation loose_equation(const SlidingSetting& setting, const SlidingState&
     equation.row.dx[at.index.moment(span.last_point)] = 1.0;
   } else {
     const double L = setting.body.length(span.strand);
-    const double moment = setting.body.bending_stiffness(span.strand) / (L * L);
+    const double moment = setting.body.bending_stiffness({.strand = span.strand, .s = 0.5 * L}) / (L * L);
     equation.value = moment * grown_apart(at, span);
     equation.row.dx = moment * grown_apart_gradient(at, span).dx;
   }
@@ -115,10 +115,12 @@ BorderEquation border_equation(const SlidingSetting& setting, const SlidingState
   if (const NeutralSpan* loose = loose_span_at(at, k)) return loose_equation(setting, at, *loose, k);
   BorderEquation equation{.row = at.no_slope()};
   if (at.layout.lies_pressed(point)) {
-    const double EI = setting.body.bending_stiffness(at.mesh.breakpoint(k).first);
+    const MaterialPoint here{.strand = at.mesh.breakpoint(k).first, .s = at.s(k)};
+    const double EI = setting.body.bending_stiffness(here);
     const CurvatureGap bend = curvature_gap_gradient(setting, at, point);
     equation.value = EI * bend.value;
     bend.add_to(equation.row, EI, at.index);
+    equation.row.dx[at.index.coordinate(k)] += setting.body.stiffness(here, 1).EI * bend.value;
   } else {
     equation.value = at.moment(k);
     equation.row.dx[at.index.moment(k)] = 1.0;

@@ -49,15 +49,19 @@ void add_material_energy(const SlidingSetting& setting, const SlidingState& at, 
   const auto k = static_cast<Index>(point);
   const Index strand = at.mesh.breakpoint(k).first;
   const AxisStrainGradient strain = at.mesh.strain_gradient(k, side, at.now);
-  const double EA = body.axial_stiffness(strand), EI = body.bending_stiffness(strand);
+  const MaterialPoint here{.strand = strand, .s = at.s(k)};
+  const auto [EA, EI] = body.stiffness(here);
   const double N = EA * (strain.stretch - 1.0 - body.free_strain(strand, at.now.lambda).value);
-  const double natural = body.natural_curvature({.strand = strand, .s = at.s(k)}, at.now.lambda);
+  const double natural = body.natural_curvature(here, at.now.lambda);
   const double M = EI * (strain.curvature - natural);
   to.value += sign * (N * strain.stretch - 0.5 * N * N / EA + M * strain.curvature - 0.5 * M * M / EI);
   const double by_stretch = sign * EA * strain.stretch, by_curvature = sign * EI * strain.curvature;
   to.row.dx.head(at.index.nodes) += by_stretch * strain.stretch_dx + by_curvature * strain.curvature_dx;
   to.row.dx.tail(at.index.points) += by_stretch * strain.stretch_ds + by_curvature * strain.curvature_ds;
   to.row.dlambda += by_stretch * strain.stretch_dlambda + by_curvature * strain.curvature_dlambda;
+  const SectionStiffness rate = body.stiffness(here, 1);
+  to.row.dx[at.index.coordinate(k)] += sign * ((N * strain.stretch - 0.5 * N * N / EA) * rate.EA / EA +
+                                               (M * strain.curvature - 0.5 * M * M / EI) * rate.EI / EI);
 }
 
 }  // namespace

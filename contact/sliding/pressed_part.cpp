@@ -74,10 +74,13 @@ LeftBeside left_beside(const SlidingSetting& setting, const SlidingState& at, co
   const double h = on.element(), way = travel(wall, place, axis.angle, at.now.lambda);
   const LengthToHold to_hold = length_to_hold(setting, at, part.pressed.segment);
   for (const CurvatureRateJump& jump : wall.curvature_rate_jumps()) {
-    const double pulled = pull(setting, touch.strand, touch.obstacle, jump) / to_hold.value;
-    if (pulled <= 0.0 || (jump.place - at_rest).norm() > 2.0 * h) continue;
+    if ((jump.place - at_rest).norm() > 2.0 * h) continue;
     const NodeFunction far = beyond(wall, jump, touch, at);
-    const double offset = -way * far.value / h, away = std::abs(offset), weight = std::min(2.0 - 2.0 * away, 1.0);
+    const double offset = -way * far.value / h;
+    const MaterialPoint of_jump{.strand = touch.strand, .s = on.coordinate(double(part.node + 1) + offset)};
+    const double pulled = pull(setting, of_jump, touch.obstacle, jump) / to_hold.value;
+    if (pulled <= 0.0) continue;
+    const double away = std::abs(offset), weight = std::min(2.0 - 2.0 * away, 1.0);
     if (weight <= 0.0) continue;
     const double there = double(part.node + 1) + offset, left = on.pressure_between(there) - weight * pulled;
     if (left >= least.value) continue;

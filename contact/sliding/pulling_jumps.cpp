@@ -44,8 +44,9 @@ double length_of(const SlidingSetting& setting, const SlidingState& at, const Se
 
 }  // namespace
 
-double pull(const SlidingSetting& setting, Index strand, std::size_t obstacle, const CurvatureRateJump& jump) {
-  return -sign_of(setting.obstacles[obstacle].surface->side()) * setting.body.bending_stiffness(strand) * jump.jump;
+double pull(const SlidingSetting& setting, const MaterialPoint& place, std::size_t obstacle,
+            const CurvatureRateJump& jump) {
+  return -sign_of(setting.obstacles[obstacle].surface->side()) * setting.body.bending_stiffness(place) * jump.jump;
 }
 
 // An arch is up to 1.8 times as long as the part that holds the pull (8.11a), and no shorter than the shortest span.
@@ -87,13 +88,13 @@ std::optional<PullingJump> pulling_jump_beside(const SlidingSetting& setting, co
   std::optional<PullingJump> tightest;
   for (const CurvatureRateJump& jump : wall.curvature_rate_jumps()) {
     if ((jump.place - at_rest).norm() > reach * element) continue;
-    const double force = pull(setting, touch.strand, touch.obstacle, jump);
-    if (force <= 0.0) continue;
+    if (pull(setting, {touch.strand, on.coordinate(0.0)}, touch.obstacle, jump) <= 0.0) continue;
     const NodeFunction here = beyond(wall, jump, touch, at);
     const double distance = -away * here.value - jump.half_width;
     if (distance < -across) continue;
     const double inside = std::max(-distance, 0.0) / on.element();
     const double there = edge->first ? inside : part.elements - inside;
+    const double force = pull(setting, {touch.strand, on.coordinate(there)}, touch.obstacle, jump);
     const PullingJump found{
         .at = jump,
         .segment = edge->segment,
@@ -120,7 +121,7 @@ Row room_gradient(const SlidingSetting& setting, const SlidingState& at, std::si
   const LengthToHold to_hold = length_to_hold(setting, at, jump.segment);
   const double scale = setting.scales.length / setting.scales.force;
   on.add_gradient_between(jump.place, scale, row);
-  const double force = pull(setting, touch.strand, touch.obstacle, jump.at);
+  const double force = pull(setting, {touch.strand, on.coordinate(jump.place)}, touch.obstacle, jump.at);
   double by_element = force * to_hold.by_element / (to_hold.value * to_hold.value);
   if (jump.distance.value < 0.0) {  // the place moves in the part
     const double h = on.element(), toward_last = edge_at(at.layout, point)->first ? 1.0 : -1.0;
@@ -144,7 +145,9 @@ std::optional<double> pushing_jump_beside(const SlidingSetting& setting, const S
   const double way = travel(wall, place, axis.angle, at.now.lambda);
   std::optional<double> nearest;
   for (const CurvatureRateJump& jump : wall.curvature_rate_jumps()) {
-    if (pull(setting, touch.strand, touch.obstacle, jump) >= 0.0 || (jump.place - at_rest).norm() > reach) continue;
+    if (pull(setting, {touch.strand, at.s(static_cast<Index>(point))}, touch.obstacle, jump) >= 0.0 ||
+        (jump.place - at_rest).norm() > reach)
+      continue;
     const double ahead = -way * beyond(wall, jump, touch, at).value;
     if (!nearest || std::abs(ahead) < std::abs(*nearest)) nearest = ahead;
   }

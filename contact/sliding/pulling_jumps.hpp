@@ -25,7 +25,8 @@ struct PullingJump {
 };
 
 /// The force with which a wall would pull on a strand that lies across such a place; < 0 where it pushes.
-double pull(const SlidingSetting& setting, Index strand, std::size_t obstacle, const CurvatureRateJump& jump);
+double pull(const SlidingSetting& setting, const MaterialPoint& place, std::size_t obstacle,
+            const CurvatureRateJump& jump);
 
 /// The length of a part whose pressure has to hold such a pull: where more is needed its mesh shows the arch.
 struct LengthToHold {

@@ -34,7 +34,7 @@ double shortest_sure_arch(const SlidingSetting& setting, const HeldAxis& held, d
   const Index strand = held.touch.strand;
   const double L = setting.body.length(strand);
   const double slope = std::abs(straight_pressure_slope(setting, held, ahead));
-  const double lost = std::pow(roundoff * setting.body.bending_stiffness(strand) * L / slope, 0.2);
+  const double lost = std::pow(roundoff * setting.body.bending_stiffness({strand, held.s}) * L / slope, 0.2);
   return std::clamp(lost, shortest_span_on_straight(setting.body, strand), longest * L);
 }
 

@@ -18,32 +18,76 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-SectionProperties properties_of(const Rectangle& shape) {
-  const double h = shape.height;
-  return {.A = shape.width * h, .I = shape.width * h * h * h / 12.0, .height = h};
+double linear(double from, const std::optional<double>& to, double t) { return to ? from + t * (*to - from) : from; }
+
+SectionProperties properties_of(const Rectangle& shape, double t) {
+  const double b = linear(shape.width, shape.width_to, t), h = linear(shape.height, shape.height_to, t);
+  return {.A = b * h, .I = b * h * h * h / 12.0, .height = h};
 }
 
-SectionProperties properties_of(const Circle& shape) {
-  const double r = shape.radius;
+SectionProperties properties_of(const Circle& shape, double t) {
+  const double r = linear(shape.radius, shape.radius_to, t);
   return {.A = pi * r * r, .I = pi * r * r * r * r / 4.0, .height = 2.0 * r};
 }
 
 // With R and r the outer and the inner radius, t = R − r: R² − r² = t (R + r), which does not cancel for thin walls.
-SectionProperties properties_of(const Tube& shape) {
-  const double R = shape.radius;
-  const double r = R - shape.thickness;
-  const double A = pi * shape.thickness * (R + r);
+SectionProperties properties_of(const Tube& shape, double t) {
+  const double R = linear(shape.radius, shape.radius_to, t);
+  const double wall = linear(shape.thickness, shape.thickness_to, t), r = R - wall;
+  const double A = pi * wall * (R + r);
   return {.A = A, .I = A * (R * R + r * r) / 4.0, .height = 2.0 * R};
 }
 
-SectionProperties properties_of(const General& shape) {
+SectionProperties properties_of(const General& shape, double) {
   return {.A = shape.A, .I = shape.I, .height = shape.height, .shear_area = shape.shear_area};
+}
+
+SectionProperties properties_of(const SectionTable& shape, double t) {
+  const auto behind = std::upper_bound(shape.at.begin() + 1, shape.at.end() - 1, t);
+  const auto k = static_cast<std::size_t>(behind - shape.at.begin());
+  const double part = (t - shape.at[k - 1]) / (shape.at[k] - shape.at[k - 1]);
+  const auto value = [&](const std::vector<double>& of) { return of[k - 1] + part * (of[k] - of[k - 1]); };
+  const auto optional_value = [&](const std::vector<double>& of) {
+    return of.empty() ? std::nullopt : std::optional(value(of));
+  };
+  return {.A = value(shape.A),
+          .I = value(shape.I),
+          .height = optional_value(shape.height),
+          .shear_area = optional_value(shape.shear_area)};
 }
 
 }  // namespace
 
-SectionProperties properties(const Section& section) {
-  return std::visit([](const auto& shape) { return properties_of(shape); }, section.shape);
+SectionProperties properties(const Section& section, double fraction) {
+  return std::visit([&](const auto& shape) { return properties_of(shape, fraction); }, section.shape);
+}
+
+bool tapers(const Section& section) {
+  struct Tapers {
+    bool operator()(const Rectangle& shape) const { return shape.width_to || shape.height_to; }
+    bool operator()(const Circle& shape) const { return shape.radius_to.has_value(); }
+    bool operator()(const Tube& shape) const { return shape.radius_to || shape.thickness_to; }
+    bool operator()(const General&) const { return false; }
+    bool operator()(const SectionTable&) const { return true; }
+  };
+  return std::visit(Tapers{}, section.shape);
+}
+
+bool height_tapers(const Section& section) {
+  struct Tapers {
+    bool operator()(const Rectangle& shape) const { return shape.height_to.has_value(); }
+    bool operator()(const Circle& shape) const { return shape.radius_to.has_value(); }
+    bool operator()(const Tube& shape) const { return shape.radius_to.has_value(); }
+    bool operator()(const General&) const { return false; }
+    bool operator()(const SectionTable& shape) const { return !shape.height.empty(); }
+  };
+  return std::visit(Tapers{}, section.shape);
+}
+
+bool has_faces(const Section& section) {
+  if (const auto* general = std::get_if<General>(&section.shape)) return general->height.has_value();
+  const auto* table = std::get_if<SectionTable>(&section.shape);
+  return table == nullptr || !table->height.empty();
 }
 
 namespace {
@@ -250,6 +294,27 @@ bool has_friction(const Deck& deck) {
   });
 }
 
+// The sections of a table have kinks, and faces that taper are not parallel to their axis.
+std::string why_tapers_hold_contact(const Deck& deck) {
+  for (const Member& member : deck.members) {
+    const Section* section = find(deck.sections, member.section);
+    if (section == nullptr || !tapers(*section)) continue;
+    for (const Wall& wall : deck.walls) {
+      const bool concerned = wall.members.empty() ||
+                             std::find(wall.members.begin(), wall.members.end(), member.name) != wall.members.end();
+      if (!concerned) continue;
+      if (std::holds_alternative<SectionTable>(section->shape))
+        return "contact points do not move along member " + member.name + ", whose section " + section->name +
+               " is a table";
+      if (wall.contact_surface == ContactSurface::face && height_tapers(*section))
+        return "wall " + wall.name + " touches the faces of member " + member.name +
+               ", along which contact points do "
+               "not move, since its height tapers";
+    }
+  }
+  return {};
+}
+
 PointsOfContact points_of_contact(const Deck& deck) {
   if (deck.contact.points) return {.points = *deck.contact.points, .why = "as contact.points says"};
   if (deck.contact.method != ContactLaw::Method::rigid)
@@ -263,6 +328,8 @@ PointsOfContact points_of_contact(const Deck& deck) {
       return {.points = ContactPoints::nodes,
               .why = "contact points move along members of theory euler-bernoulli or elastica, and member " +
                      member.name + " is of theory " + text_of(theory_words, member.theory)};
+  if (std::string why = why_tapers_hold_contact(deck); !why.empty())
+    return {.points = ContactPoints::nodes, .why = std::move(why)};
   const WallsWithoutClearance without_clearance(deck);
   for (std::size_t i = 0; i < deck.walls.size(); ++i)
     for (const std::size_t k : without_clearance.beside(i))

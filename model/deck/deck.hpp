@@ -60,15 +60,18 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
+/// Sizes `…_to` are those at the end of a member, linear from its beginning; empty: the same all along.
 struct Rectangle {
   double width = 0.0;   ///< along y [length]
   double height = 0.0;  ///< along z [length]
+  std::optional<double> width_to{}, height_to{};
 
   bool operator==(const Rectangle&) const = default;
 };
 
 struct Circle {
   double radius = 0.0;
+  std::optional<double> radius_to{};
 
   bool operator==(const Circle&) const = default;
 };
@@ -76,6 +79,7 @@ struct Circle {
 struct Tube {
   double radius = 0.0;     ///< outer
   double thickness = 0.0;  ///< in (0, radius]
+  std::optional<double> radius_to{}, thickness_to{};
 
   bool operator==(const Tube&) const = default;
 };
@@ -90,10 +94,20 @@ struct General {
   bool operator==(const General&) const = default;
 };
 
+/// The same at places along a member, linear between them.
+struct SectionTable {
+  std::vector<double> at{};                    ///< fractions of the member's length, ascending from 0 to 1
+  std::vector<double> A{};                     ///< as many
+  std::vector<double> I{};                     ///< as many
+  std::vector<double> shear_area{}, height{};  ///< as many, or none
+
+  bool operator==(const SectionTable&) const = default;
+};
+
 struct Section {
   std::string name{};
   Position position{};
-  std::variant<Rectangle, Circle, Tube, General> shape{};
+  std::variant<Rectangle, Circle, Tube, General, SectionTable> shape{};
   std::optional<double> shear_correction{};  ///< factor on the shear stiffness; empty: the theory's own
 
   bool operator==(const Section&) const = default;
@@ -106,7 +120,15 @@ struct SectionProperties {
   std::optional<double> shear_area{};  ///< empty: A times a correction [length²]
 };
 
-SectionProperties properties(const Section& section);
+/// At a fraction of a member's length, which matters to sections that taper.
+SectionProperties properties(const Section& section, double fraction);
+
+/// Whether a section varies along a member, and whether its height does.
+bool tapers(const Section& section);
+bool height_tapers(const Section& section);
+
+/// Whether its height is known.
+bool has_faces(const Section& section);
 
 struct Point {
   std::string name{};
@@ -552,6 +574,9 @@ double friction_of(const Deck& deck, const Wall& wall, const std::string& member
 
 /// Whether a wall has friction on a member.
 bool has_friction(const Deck& deck);
+
+/// Why contact points do not move along members whose sections taper; empty if they may.
+std::string why_tapers_hold_contact(const Deck& deck);
 
 /// The line of two straight walls on both sides of an axis that leave nothing between them but round-off of the size of
 /// the structure; empty for other walls.

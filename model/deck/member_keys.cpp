@@ -93,10 +93,19 @@ void material_and_section_keys(Keys& keys, const Deck& deck, Member& member) {
         "add nu to material." + member.material);
   keys.name("section", member.section, Named::section, "a name");
   const Section* section = find(deck.sections, member.section);
-  if (member.theory == Theory::essenburg && section != nullptr && std::holds_alternative<General>(section->shape))
+  if (section == nullptr) return;
+  const bool has_no_shape =
+      std::holds_alternative<General>(section->shape) || std::holds_alternative<SectionTable>(section->shape);
+  if (member.theory == Theory::essenburg && has_no_shape)
     keys.report("section",
                 "section " + member.section + " has no shape over whose height theory essenburg could integrate",
                 "take a rectangle, a circle or a tube");
+  else if (tapers(*section) && (member.theory == Theory::essenburg || member.theory == Theory::truss))
+    keys.report("section",
+                "section " + member.section + " tapers, and theory " + text_of(theory_words, member.theory) +
+                    " has members of one section",
+                member.theory == Theory::truss ? "take a section without …_to"
+                                               : "take a section without …_to, or theory \"reissner\"");
 }
 
 void arc_keys(Keys& keys, Arc& arc, const std::optional<Ends>& ends) {
@@ -239,7 +248,7 @@ bool curve_keys(Keys& keys, std::vector<double>& x, std::vector<double>& z) {
 const Member* member_without_faces(const Deck& deck, const std::vector<const Member*>& members) {
   const auto has_no_faces = [&deck](const Member* member) {
     const Section* section = find(deck.sections, member->section);
-    return section != nullptr && !properties(*section).height;
+    return section != nullptr && !has_faces(*section);
   };
   const auto found = std::find_if(members.begin(), members.end(), has_no_faces);
   return found == members.end() ? nullptr : *found;

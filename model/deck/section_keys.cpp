@@ -1,5 +1,6 @@
 // Labels, variables, materials, sections and points: what refers to nothing else.
 #include <algorithm>
+#include <functional>
 
 #include "core/text.hpp"
 #include "model/deck/deck_keys.hpp"
@@ -44,12 +45,50 @@ void material_keys(Keys& keys, Material& material) {
               "allowable stress; needed by the monitor `utilisation`");
 }
 
+// A size at the end of a member.
+bool size_to(Keys& keys, const char* key, std::optional<double>& size) {
+  return keys.number(optional(key), size, unit::length, positive, "at the member's end");
+}
+
 void tube_keys(Keys& keys, Tube& tube) {
   const bool radius = keys.number("radius", tube.radius, unit::length, positive, "outer");
   const bool thickness = keys.number("thickness", tube.thickness, unit::length, positive, "at most the radius");
-  if (radius && thickness && tube.thickness > tube.radius)
-    keys.report("thickness", round_trip(tube.thickness) + " is more than the outer radius " + round_trip(tube.radius),
-                "give at most the outer radius");
+  size_to(keys, "radius_to", tube.radius_to);
+  size_to(keys, "thickness_to", tube.thickness_to);
+  if (!radius || !thickness) return;
+  const double outer = tube.radius_to.value_or(tube.radius), wall = tube.thickness_to.value_or(tube.thickness);
+  const auto is_more = [](double a, double b) {
+    return round_trip(a) + " is more than the outer radius " + round_trip(b);
+  };
+  if (tube.thickness > tube.radius)
+    keys.report("thickness", is_more(tube.thickness, tube.radius), "give at most the outer radius");
+  else if (wall > outer)
+    keys.report(tube.thickness_to ? "thickness_to" : "radius_to", is_more(wall, outer) + " at the member's end",
+                "give at most the outer radius there");
+}
+
+// The values of a table, which are as many as its places.
+void column_key(Keys& keys, const Key& key, std::vector<double>& values, const Dimension& unit,
+                std::optional<std::size_t> count, std::string_view meaning) {
+  if (!keys.numbers(key, values, unit, meaning) || !count) return;
+  if (values.size() != *count)
+    keys.report(key.name,
+                std::to_string(values.size()) + " values and " + std::to_string(*count) + " places do not go together",
+                "give one value for each place in at");
+  else if (std::any_of(values.begin(), values.end(), [](double value) { return !(value > 0.0); }))
+    keys.report(key.name, "a value is not greater than 0", "give values greater than 0");
+}
+
+void table_keys(Keys& keys, SectionTable& table) {
+  const bool right = keys.numbers("at", table.at, unit::none, "fractions of the member's length, from 0 to 1");
+  const bool ascends = std::adjacent_find(table.at.begin(), table.at.end(), std::greater_equal<>()) == table.at.end();
+  if (right && (table.at.size() < 2 || table.at.front() != 0.0 || table.at.back() != 1.0 || !ascends))
+    keys.report("at", "the places do not ascend from 0 to 1", "give places such as [0.0, 0.5, 1.0]");
+  const auto count = right ? std::optional(table.at.size()) : std::nullopt;
+  column_key(keys, "A", table.A, unit::area, count, "as many");
+  column_key(keys, "I", table.I, unit::second_moment, count, "as many");
+  column_key(keys, optional("shear_area"), table.shear_area, unit::area, count, "");
+  column_key(keys, optional("height"), table.height, unit::length, count, "");
 }
 
 void section_keys(Keys& keys, Section& section) {
@@ -57,9 +96,13 @@ void section_keys(Keys& keys, Section& section) {
                                       keys.number("width", shape.width, unit::length, positive, "out of plane");
                                       keys.number("height", shape.height, unit::length, positive,
                                                   "depth in the plane of bending");
+                                      size_to(keys, "width_to", shape.width_to);
+                                      size_to(keys, "height_to", shape.height_to);
                                     }};
-  const Option<Circle> circle{"circle", "",
-                              [&](Circle& shape) { keys.number("radius", shape.radius, unit::length, positive, ""); }};
+  const Option<Circle> circle{"circle", "", [&](Circle& shape) {
+                                keys.number("radius", shape.radius, unit::length, positive, "");
+                                size_to(keys, "radius_to", shape.radius_to);
+                              }};
   const Option<Tube> tube{"tube", "", [&](Tube& shape) { tube_keys(keys, shape); }};
   const Option<General> general{
       "general", "", [&](General& shape) {
@@ -68,7 +111,8 @@ void section_keys(Keys& keys, Section& section) {
         keys.number(optional("shear_area"), shape.shear_area, unit::area, positive, "");
         keys.number(optional("height"), shape.height, unit::length, positive, "between the faces");
       }};
-  keys.one_of("shape", section.shape, "one of the following", rectangle, circle, tube, general);
+  const Option<SectionTable> table{"table", "", [&](SectionTable& shape) { table_keys(keys, shape); }};
+  keys.one_of("shape", section.shape, "one of the following", rectangle, circle, tube, general, table);
   keys.number(optional("shear_correction", "by theory"), section.shear_correction, unit::none, positive,
               "factor on the shear stiffness");
 }

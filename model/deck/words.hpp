@@ -76,7 +76,7 @@ inline constexpr Words<ContactLaw::Method, 3> contact_method_words{{{"multiplier
                                                                     {"augmented", ContactLaw::Method::augmented}}};
 inline constexpr Words<ContactPoints, 2> contact_points_words{
     {{"nodes", ContactPoints::nodes}, {"moving", ContactPoints::moving}}};
-inline constexpr Words<Component, 23> component_words{{{"x", Component::x},
+inline constexpr Words<Component, 25> component_words{{{"x", Component::x},
                                                        {"z", Component::z},
                                                        {"rotation", Component::rotation},
                                                        {"face-above-z", Component::face_above_z},

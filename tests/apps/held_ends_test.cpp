@@ -32,7 +32,7 @@ void expect_end_at(const std::string& deck, double lambda, const std::string& pl
 }
 
 TEST(HeldEnds, AnEndIsLoweredOntoAFloor) {
-  for (const char* points : {"sliding", "nodes"})
+  for (const char* points : {"moving", "nodes"})
     expect_end_at(beam(fmt::format(R"toml(
 support = {{ a = ["x", "z", "rotation"], b = ["x", "rotation"] }}
 prescribed = [{{ at = "b", z = -0.003 }}]
@@ -45,7 +45,7 @@ path = {{ step = 0.05, branches = "primary", stop = {{ lambda = [-1.0, 1.0] }} }
 }
 
 TEST(HeldEnds, AFloorRisesToSupports) {
-  for (const char* points : {"sliding", "nodes"})
+  for (const char* points : {"moving", "nodes"})
     expect_end_at(beam(fmt::format(R"toml(
 support = {{ a = ["x", "z"], b = ["x", "z"] }}
 wall = [{{ name = "floor", side = "below", contact_surface = "axis", profile = {{ type = "flat", z = -0.002 }}, motion = {{ z = 0.004 }} }}]

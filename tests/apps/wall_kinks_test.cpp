@@ -53,7 +53,7 @@ std::vector<const RecordEvent*> limit_points(const TracedDeck& traced) {
 }
 
 class WallKinks : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Points, WallKinks, testing::Values("sliding", "nodes"),
+INSTANTIATE_TEST_SUITE_P(Points, WallKinks, testing::Values("moving", "nodes"),
                          [](const auto& of) { return of.param; });
 
 // λ increases along the ramp, falls along the arc, where the push falls to zero, stays with the tip along the flat, and

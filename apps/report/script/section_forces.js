@@ -21,7 +21,8 @@ const forces_panel = () => {
   const quantity_choice = element('force'), member_choice = element('force-member'), picture = element('diagram');
   for (const { name, unit } of section_forces) quantity_choice.append(new Option(unit === '' ? name : `${name} [${unit}]`));
   for (const { name } of data.members) member_choice.append(new Option(name));
-  const value_at = (force, m) => ([, , n, q, moment]) => force.of(n, q, moment, data.members[m]);
+  const value_at = (force, m) => ([, , n, q, moment, A, I, EI, half]) =>
+    force.of(n, q, moment, A === undefined ? data.members[m] : { A, I, EI, half });
   const width = 640, height = 240, left = 78, right = 12, top = 14, bottom = 34;
   const greatest = (force, members) => shapes.reduce((most, { forces }) => members.reduce((of_members, m) =>
     (forces[m] ?? []).reduce((size, sample) => Math.max(size, Math.abs(value_at(force, m)(sample) ?? 0)), of_members), most), 0);

@@ -26,11 +26,12 @@ std::string why_it_pulls(const SlidingSetting& setting, const SlidingState& at, 
   const double stretch =
       at.mesh.node_strain(strand, position, ahead ? SlidingMesh::At::behind : SlidingMesh::At::before, at.now).stretch;
   const double strain = stretch - 1.0 - setting.body.free_strain(strand, at.now.lambda).value;
-  const double tension = setting.body.axial_stiffness(strand) * strain, length = setting.body.length(strand);
+  const SectionStiffness section = setting.body.stiffness({.strand = strand, .s = coordinate(position)});
+  const double tension = section.EA * strain, length = setting.body.length(strand);
   std::ostringstream why;
   why << "the wall would have to pull at the edge of contact, which no wall does: the mesh is too coarse";
   if (tension <= 0.0) return why.str();
-  const double layer = std::sqrt(setting.body.bending_stiffness(strand) / tension);
+  const double layer = std::sqrt(section.EI / tension);
   if (layer >= element) return why.str();
   why << std::setprecision(3) << " there. The tension " << tension
       << " lets the member bend within sqrt(EI/N) = " << layer << " of the edge, and its elements are " << element

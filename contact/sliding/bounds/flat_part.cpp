@@ -78,13 +78,20 @@ AxisStrainGradient strain_gradient_in(const SlidingState& at, std::size_t segmen
                               : at.mesh.strain_gradient(part.first_point, SlidingMesh::At::behind, at.now);
 }
 
+// The place of that strain, and the tracked point that is there.
+std::pair<MaterialPoint, Index> place_in(const SlidingState& at, std::size_t segment) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
+  const Index point = part.last_point >= 0 ? part.last_point : part.first_point;
+  return {{.strand = part.strand, .s = at.s(point)}, point};
+}
+
 // (k d/π)² of a part of a segment, its length in half waves, squared: k² = P λ/EI is the wave number of a straight part
-// under the thrust P = EA (1 + e − λ), λ its stretch and e that without force.
+// under the thrust P = EA (1 + e − λ), λ its stretch and e that without force. EA and EI are those at its end.
 double squared_half_waves(const SlidingSetting& setting, const SlidingState& at, std::size_t segment,
                           const Stretch& part) {
   const Index strand = at.layout.segments()[segment].strand;
   const double d = part.length(), stretch = strain_in(at, segment).stretch;
-  const double EA = setting.body.axial_stiffness(strand), EI = setting.body.bending_stiffness(strand);
+  const auto [EA, EI] = setting.body.stiffness(place_in(at, segment).first);
   const double free = 1.0 + setting.body.free_strain(strand, at.now.lambda).value;
   return EA * (free - stretch) * stretch / EI * d * d / (pi * pi);
 }
@@ -93,7 +100,9 @@ Row squared_half_waves_gradient(const SlidingSetting& setting, const SlidingStat
                                 const Stretch& part, double sign) {
   const Index strand = at.layout.segments()[segment].strand;
   const AxisStrainGradient strain = strain_gradient_in(at, segment);
-  const double EA = setting.body.axial_stiffness(strand), EI = setting.body.bending_stiffness(strand);
+  const auto [here, point] = place_in(at, segment);
+  const auto [EA, EI] = setting.body.stiffness(here);
+  const SectionStiffness rate = setting.body.stiffness(here, 1);
   const double d = part.length(), factor = sign * EA / EI / (pi * pi), stretch = strain.stretch;
   const SlidingBody::FreeStrain heat = setting.body.free_strain(strand, at.now.lambda);
   const double free = 1.0 + heat.value, by_stretch = factor * (free - 2.0 * stretch) * d * d;
@@ -101,6 +110,7 @@ Row squared_half_waves_gradient(const SlidingSetting& setting, const SlidingStat
   row.dx.head(at.index.nodes) = by_stretch * strain.stretch_dx;
   row.dx.tail(at.index.points) = by_stretch * strain.stretch_ds;
   row.dlambda = by_stretch * strain.stretch_dlambda + factor * heat.rate * stretch * d * d;
+  row.dx[at.index.coordinate(point)] += factor * (free - stretch) * stretch * d * d * (rate.EA / EA - rate.EI / EI);
   const double by_length = factor * (free - stretch) * stretch * 2.0 * d * (part.is_half ? 2.0 : 1.0);
   if (part.last) row.dx[at.index.coordinate(*part.last)] += by_length;
   if (part.first) row.dx[at.index.coordinate(*part.first)] -= by_length;

@@ -260,11 +260,11 @@ TEST(DeckReader, UprightWallsAreToldOnceWithTheOutlineThatTheyAre) {
 // The second moments are those of every handbook; a tube of full thickness is a circle.
 TEST(SectionProperties, MatchTheClosedForms) {
   constexpr double pi = std::numbers::pi;
-  const SectionProperties rectangle = properties({.shape = Rectangle{0.2, 0.3}});
-  const SectionProperties circle = properties({.shape = Circle{0.5}});
-  const SectionProperties tube = properties({.shape = Tube{0.5, 0.1}});
-  const SectionProperties solid = properties({.shape = Tube{0.5, 0.5}});
-  const SectionProperties general = properties({.shape = General{6.0, 2.0, 5.0, std::nullopt}});
+  const SectionProperties rectangle = properties({.shape = Rectangle{0.2, 0.3}}, 0.0);
+  const SectionProperties circle = properties({.shape = Circle{0.5}}, 0.0);
+  const SectionProperties tube = properties({.shape = Tube{0.5, 0.1}}, 0.0);
+  const SectionProperties solid = properties({.shape = Tube{0.5, 0.5}}, 0.0);
+  const SectionProperties general = properties({.shape = General{6.0, 2.0, 5.0, std::nullopt}}, 0.0);
 
   EXPECT_DOUBLE_EQ(rectangle.A, 0.06);
   EXPECT_DOUBLE_EQ(rectangle.I, 0.2 * 0.027 / 12.0);
