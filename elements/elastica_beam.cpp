@@ -169,6 +169,12 @@ ElasticaBeam::ElasticaBeam(const StretchReference& stretch, double EA, double EI
   if (taper_) add_taper(stretch);
 }
 
+// W times a vector; W is a diagonal where the section is the same all along.
+Eigen::Matrix<double, 5, 1> ElasticaBeam::weighted(const Vector5& p) const {
+  if (!taper_) return bending_weights.cwiseProduct(p);
+  return bending_ * p;
+}
+
 // S = S₁ + ξ (S₂ − S₁) at ξ = x + ½, which the ends take along.
 void ElasticaBeam::add_taper(const StretchReference& stretch) {
   bending_.setZero();
@@ -213,9 +219,12 @@ ElasticaBeam::Potential ElasticaBeam::potential(const ChordMotion& at, const Vec
   out.hessian *= h;
   out.hessian.bottomLeftCorner<2, 5>() = out.hessian.topRightCorner<5, 2>().transpose();
   out.hessian(v_row, e_row) = out.hessian(e_row, v_row);
-  out.hessian.topLeftCorner<5, 5>() += bending * bending_;
+  if (taper_)
+    out.hessian.topLeftCorner<5, 5>() += bending * bending_;
+  else
+    out.hessian.diagonal().head<5>() += bending * bending_weights;
   out.gradient = h * out.integrals;
-  out.gradient.head<5>() += bending * (bending_ * change);
+  out.gradient.head<5>() += bending * weighted(change);
   out.gradient[e_row] += at.stretch;
   return out;
 }
@@ -256,7 +265,7 @@ ElasticaBeam::Solution ElasticaBeam::condensed(const ChordMotion& at, const Vect
                                                const InnerGradient& minus_gradient) const {
   const Vector5 change = change_of(at, y);
   Solution out{.inner = y, .inner_gradient = -minus_gradient, .potential = P};
-  out.energy = 0.5 * (EI_ / length_ * change.dot(bending_ * change) + EA_ * length_ * P.squared_strain);
+  out.energy = 0.5 * (EI_ / length_ * change.dot(weighted(change)) + EA_ * length_ * P.squared_strain);
   out.slopes << y[2], P.gradient.segment<2>(1);
   out.curvatures = P.outer(cubic_).transpose() * out.inner_gradient;
   out.curvatures.bottomRightCorner<2, 2>() += P.hessian.block<2, 2>(1, 1);
@@ -274,7 +283,7 @@ Eigen::Vector3d ElasticaBeam::slope_rate(const ChordMotion& at, const Solution& 
   const double h = length_, bending = EI_ / (EA_ * h);
   const Vector5 bend_rate = -rest.length / h * change_of(at, solution.inner) - rest.angle;
   Vector7 rate = rest.length * solution.potential.integrals;
-  rate.head<5>() += bending * (bending_ * bend_rate);
+  rate.head<5>() += bending * weighted(bend_rate);
   rate[e_row] -= rest.chord + h * rest.along;
   rate[v_row] += h * rest.across;
   // What stays at its stress-free value moves with it: a₄, and a₃ in an angle of order 4.

@@ -58,6 +58,7 @@ class ElasticaBeam final : public Element, public SlenderBeam {
   Eigen::Vector3d slope_rate(const ChordMotion& at, const Solution& solution, const Rate& rest) const;
   Vector7 taper_rate(const ChordMotion& at, const Solution& solution, const Rate& rest) const;
   void add_taper(const StretchReference& stretch);
+  Eigen::Matrix<double, 5, 1> weighted(const Eigen::Matrix<double, 5, 1>& p) const;
 
   RestChord rest_;
   double length_;  // h, of the stress-free axis

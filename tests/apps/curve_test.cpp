@@ -371,7 +371,7 @@ TEST(EventCurve, IsWrittenAsATableAPageAndSpecialPoints) {
   EXPECT_EQ(json["specials"].back()["reason"], "stop");
   EXPECT_DOUBLE_EQ(json["specials"].back()["key"].get<double>(), 0.21);
   // Shapes had no walls, and their contacts stood outside of them.
-  EXPECT_NE(curve_html(curve, {}).find("<path class=\"moving\" data-path=\"1\" d=\"M"), std::string::npos);
+  EXPECT_NE(curve_html(curve, {}).find("<path class=\"moving\" data-path=\"2\" d=\"M"), std::string::npos);
   EXPECT_EQ(curve_status(curve), ExitStatus::success);
 }
 

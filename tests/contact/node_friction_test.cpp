@@ -26,7 +26,11 @@ class Springs final : public Equations {
     out.F = state.x - state.lambda * Vec2(1.0, 0.0);
     out.F_lambda = -Vec2(1.0, 0.0);
     out.K.resize(2, 2);
-    out.K.setIdentity();
+    out.K.setZero();
+    out.K.insert(0, 0) = 1.0;
+    out.K.insert(1, 0) = 0.0;  // of the pattern, in which contact adds its own
+    out.K.insert(1, 1) = 1.0;
+    out.K.makeCompressed();
     out.pattern_of = state.active_set;
   }
   double energy(const State& state) const override { return 0.5 * state.x.squaredNorm() - state.lambda * state.x[0]; }

@@ -288,7 +288,8 @@ TEST(BadDecks, Monitors) {
       {"name = \"end\"", "name = \"e n d\"", "monitor.1.name", "is no name"},
       {"component = \"reaction-z\"", "", "monitor.1.component", "is missing", elsewhere},
       {"component = \"reaction-z\"", "component = \"u\"", "monitor.1.component",
-       "force-z, gap, contact-start, contact-end, max-moment, max-stress, utilisation, greatest-pressure, "
+       "force-z, friction-force, slip, gap, contact-start, contact-end, max-moment, max-stress, utilisation, "
+       "greatest-pressure, "
        "least-pressure, "
        "…"},
       {"component = \"reaction-z\"", "component = \"reaction-y\"", "monitor.1.component", "did you mean reaction-x?"},
