@@ -512,7 +512,7 @@ std::optional<PathKink> MultiplierContact::kink_between(const State& from, const
   std::optional<WallKink> first;
   const Candidate* of = nullptr;
   for (std::size_t j = 0; j < candidates_.size(); ++j) {
-    if (!from.active_set[j]) continue;
+    if (!from.active_set[j] || !may_have_kinks(candidates_[j].obstacle())) continue;
     const TrackedPoint& point = candidates_[j].point();
     const auto kink = first_kink(candidates_[j].obstacle(), {.from = point.position(from), .to = point.position(to)},
                                  from.lambda, to.lambda);

@@ -338,9 +338,10 @@ std::optional<PathKink> SlidingContact::kink_between(const State& from, const St
   for (std::size_t j = 0; j < before.contacts(); ++j) {
     if (!before.is_closed(j)) continue;
     const sliding::Touch touch = sliding::touch_of_contact(*setting_, before.layout, j);
+    const Obstacle& wall = *setting_->obstacles[touch.obstacle].surface;
+    if (!may_have_kinks(wall)) continue;
     const auto place = [&](const SlidingState& at) { return sliding::face(touch.offset, touch.axis(at)); };
-    const auto kink = first_kink(*setting_->obstacles[touch.obstacle].surface,
-                                 {.from = place(before), .to = place(behind)}, from.lambda, to.lambda);
+    const auto kink = first_kink(wall, {.from = place(before), .to = place(behind)}, from.lambda, to.lambda);
     if (!kink || (first && first->part <= kink->part)) continue;
     first = kink;
     of = j;

@@ -7,7 +7,7 @@ namespace arcwall {
 std::optional<WallKink> first_kink(const Obstacle& wall, const PlaceInStep& point, double from_lambda,
                                    double to_lambda) {
   constexpr int digits = 45;  // binary, of the part
-  if (wall.is_smooth()) return std::nullopt;
+  if (!may_have_kinks(wall)) return std::nullopt;
   const auto place = [&](double part) -> Vec2 { return point.from + part * (point.to - point.from); };
   const auto lambda = [&](double part) { return from_lambda + part * (to_lambda - from_lambda); };
   const auto faces = [&](double part) { return wall.faces(place(part), lambda(part)); };

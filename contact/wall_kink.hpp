@@ -14,6 +14,9 @@ struct WallKink {
   double part = 0.0;       ///< of the straight line between both places
 };
 
+/// Returns whether a wall's curvature may jump: not that of a straight or smooth one.
+inline bool may_have_kinks(const Obstacle& wall) { return !wall.is_smooth() && !wall.knots().empty(); }
+
 /// Returns the first one between a contact's places at two values of λ, seen on the straight line between them. Empty:
 /// there is none.
 std::optional<WallKink> first_kink(const Obstacle& wall, const PlaceInStep& point, double from_lambda,
