@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -53,7 +54,9 @@ struct TraceOptions {
   std::vector<StopEvent> stop_events{};  ///< the first event of any of these kinds ends the branch
   EventSearch events = EventSearch::locate;
   std::vector<EventDetector> detectors{};  ///< in addition to limit points and watched monitors
-  bool node_contacts = false;              ///< contact at nodes: branch points with closed contacts get `mesh_artefact`
+  /// Of each contact 1 if it is at a node and stands for contact along a member: branch points with such a contact get
+  /// `mesh_artefact`. Empty: none is.
+  std::vector<std::uint8_t> node_contacts{};
   double guard_tolerance = 1e-12;  ///< a guard is satisfied above −this, degenerate within ±this [scale of guards]
   /// Mesh error of a vanishing contact force [scale of guards]. Less than that of other guards if round-off determines
   /// the scale.

@@ -31,6 +31,10 @@ struct TraceTools {
   Metric metric_on(const ActiveSet& active_set, double lambda_scale) const {
     return {system.weights(active_set), lambda_scale};
   }
+
+  /// Whether closed contacts are tied to nodes where a continuum's would move along the body. They may make a branch
+  /// point that the continuum has not.
+  bool ties_contact_to_nodes(const ActiveSet& active_set) const;
 };
 
 /// How long a correction may take. Of a nearly perfect structure hardly more than the sum of the lengths of straight

@@ -358,6 +358,22 @@ PinchedPlaces pinched_places(const deck::Deck& deck, const SlidingStructure& str
   return SlidingContact(structure, sliding_obstacles(deck, structure), scales).pinches();
 }
 
+std::vector<std::uint8_t> stand_for_members(const Structure& structure, const std::vector<Candidate>& candidates) {
+  std::unordered_map<Index, int> ends_at;  // of each node the members' ends there
+  for (const MemberMesh& mesh : structure.members())
+    for (const Index node : {mesh.nodes.front(), mesh.nodes.back()}) ++ends_at[node];
+  std::vector<std::uint8_t> result;
+  for (const Candidate& candidate : candidates) {
+    const ContactLabel& label = candidate.label();
+    const MemberMesh& mesh = *deck::find(structure.members(), label.member);
+    const bool turns = mesh.rotations.front().has_value();
+    const bool at_end = label.fraction == 0.0 || label.fraction == 1.0;
+    const Index node = label.fraction == 0.0 ? mesh.nodes.front() : mesh.nodes.back();
+    result.push_back(turns && !(at_end && ends_at[node] == 1) ? 1 : 0);
+  }
+  return result;
+}
+
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure,
                                           const PinchedPlaces& known, DeckProblems& problems) {
   std::vector<Candidate> candidates, held;

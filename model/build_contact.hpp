@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,6 +49,10 @@ PinchedPlaces pinched_places(const deck::Deck& deck, const SlidingStructure& str
 /// not known how to hold; `known`: where it is known without nodes. Points that supports hold stand last.
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure,
                                           const PinchedPlaces& known, DeckProblems& problems);
+
+/// Of each candidate 1 if it is at a node and stands for contact along a member, 0 if nothing but this point of the
+/// body can touch there: a member's free end, a joint of bars.
+std::vector<std::uint8_t> stand_for_members(const Structure& structure, const std::vector<Candidate>& candidates);
 
 /// The deck with its walls as they are while what is constant grows with λ from 0 to 1: at rest, but for those with an
 /// interference, which come to their places. Such a wall comes along its normal where the stress-free structure is

@@ -108,6 +108,8 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
   if (stage_ == 0) check_friction(*deck_, *structure_, candidates, sliding, problems);
   if (!sliding) sliding_structure_.reset();
   if (!sliding) check_hollow_corners(*deck_, problems);
+  std::vector<std::uint8_t> node_contacts;
+  if (!sliding) node_contacts = stand_for_members(*structure_, candidates);
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
   for (const LooseHolds::Hold& hold : loose_holds_.holds)
     held_.push_back(described.places.find(hold.at, structure_->members()).node);
@@ -127,6 +129,7 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
   structure_->nodal_terms().for_each_moved_support(
       [&](Index dof, double rate) { moved_.push_back({.rate = rate, .reaction = reaction_of(read_off, dof)}); });
   options_ = trace_options(*deck_, read_off, monitors_, problems);
+  options_.node_contacts = std::move(node_contacts);
   check_watched(*deck_, problems);
   if (problems.empty()) check_search(*this, problems);
   if (stage_ == 0) check_sensitivity(*whole_deck_, problems);
@@ -157,7 +160,6 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
       if (std::string warning = flat_law(spring, deck_->units); !warning.empty())
         warnings_.push_back(std::move(warning));
     }
-  const auto turns = [](const MemberMesh& mesh) { return mesh.rotations.front().has_value(); };
   if (is_unbounded(deck_->path))
     warnings_.push_back("no bound in [path.stop] ends the path: it continues to path.max_points = " +
                         std::to_string(deck_->path.max_points) +
@@ -171,8 +173,6 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
                         "\"primary\"");
   if (const std::string warning = start_outside_bounds(deck_->path); !warning.empty() && !wants_increments(*deck_))
     warnings_.push_back(warning);
-  options_.node_contacts =
-      contact_ && !sliding_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
 }
 
 std::shared_ptr<const Observable> Model::quantity(const std::string& name) const {

@@ -28,8 +28,9 @@ Event one_sided_branch_point(const TraceTools& tools, const Corner& corner, cons
   point->type = BranchType::one_sided;
   point->state = behind.state;
   point->along = behind.tangent;
-  point->mesh_artefact = tools.options.node_contacts;
+  point->mesh_artefact = tools.ties_contact_to_nodes(behind.state.active_set);
   for (const OutgoingDirection& way : untaken) {
+    point->mesh_artefact = point->mesh_artefact || tools.ties_contact_to_nodes(way.active_set);
     const Metric metric = tools.metric_on(way.active_set, corner.lambda_scale);
     point->ways.push_back({.active_set = way.active_set, .direction = unit(metric, way.direction)});
   }
@@ -146,8 +147,7 @@ std::optional<JointWay> leave_jointly(TraceTools& tools, const Corner& corner, c
     return !changes || count_along(tools, way, state) != Index{0};
   });
   if (ways.empty()) return std::nullopt;
-  Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.before, corner.lambda_scale,
-                         corner.without_progress > 0);
+  Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.before, corner.lambda_scale);
   const auto* const chosen = std::get_if<ChosenDirection>(&choice.result);
   if (chosen == nullptr) return std::nullopt;
   auto at = point_beside(tools, corner, chosen->taken);
@@ -178,8 +178,7 @@ CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> 
   }
   auto ways =
       outgoing_directions(tools.system, corner.at.state, degenerate, tools.options.corner, tools.corner_workspace);
-  Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.before, corner.lambda_scale,
-                         corner.without_progress > 0);
+  Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.before, corner.lambda_scale);
   const auto* const end = std::get_if<BranchEnd>(&choice.result);
   std::optional<PathPoint> at;
   if (!end) at = point_along(tools, corner, std::get<ChosenDirection>(choice.result));

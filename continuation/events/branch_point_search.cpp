@@ -28,7 +28,7 @@ SingularPoint singular_at(TraceTools& tools, const StepOrigin& origin, const Sin
   const double uncertain = place.half_width + roundoff_width(tools.corrector, origin.metric, place, *branching);
   branching->lambda_uncertainty = uncertain * std::abs(chord_dlambda);
   PathPoint at = point_at(tools, origin, place);
-  branching->mesh_artefact = made_by_nodes(tools, at.state);
+  branching->mesh_artefact = tools.ties_contact_to_nodes(at.state.active_set);
   if (tools.system.multiplier_count(at.state.active_set) > 0 && branching->type == BranchType::transcritical &&
       branching->mode.dx.size() > 0 && is_one_sided(tools, origin, *branching))
     branching->type = BranchType::one_sided;
@@ -66,19 +66,6 @@ PathPoint point_at(TraceTools& tools, const StepOrigin& origin, const SingularPl
   result.tangent = place.point.tangent;
   result.iterations = place.point.iterations;
   return path_point(tools.system, origin.metric, std::move(result), origin.point().tangent);
-}
-
-// A spring that holds in both senses stays at its place, and so makes none.
-bool made_by_nodes(const TraceTools& tools, const State& state) {
-  if (!tools.options.node_contacts) return false;
-  const System& system = tools.system;
-  for (std::size_t j = 0; j < state.active_set.contacts(); ++j) {
-    const auto contact = static_cast<Index>(j);
-    if (state.active_set[j] &&
-        !(system.is_two_sided(state.active_set, contact) && system.compliance(state.active_set, contact) > 0.0))
-      return true;
-  }
-  return false;
 }
 
 }  // namespace arcwall

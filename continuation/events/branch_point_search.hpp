@@ -13,9 +13,6 @@ SingularSearch find_branch_points(TraceTools& tools, const StepOrigin& origin, c
 /// singular.
 PathPoint point_at(TraceTools& tools, const StepOrigin& origin, const SingularPlace& place);
 
-/// Whether contacts tied to nodes may make a branch point that the continuum has not.
-bool made_by_nodes(const TraceTools& tools, const State& state);
-
 /// Steps below this length show no more when they are made shorter [path metric].
 inline constexpr double shortest_telling_step = 1e-4;
 

@@ -147,7 +147,7 @@ void add_branch_point_at_limit(TraceTools& tools, const StepOrigin& origin, cons
   place.touches = !place.at_limit;
   auto branching = std::make_shared<BranchPoint>(branch_point_at(tools.system, tools.corrector, metric, place));
   branching->lambda_uncertainty = sides.distance * std::abs(limit.at.tangent.dlambda);
-  branching->mesh_artefact = made_by_nodes(tools, limit.at.state);
+  branching->mesh_artefact = tools.ties_contact_to_nodes(limit.at.state.active_set);
   if (place.touches) find_crossing_branch(tools.corrector, metric, *branching);
   limit.unconfirmed = place.touches && branching->ways.empty();
   limit.branching = std::move(branching);

@@ -69,7 +69,7 @@ TEST(PerfectChannel, IsFollowedToTheLowerWallWithoutCycling) {
     const test::ContactModel model = test::Channel{.elements = elements}.model();
     const auto middle = middle_of(model);
     TraceOptions trace = until(10.0);
-    trace.node_contacts = true;
+    trace.node_contacts.assign(static_cast<std::size_t>(model.system().contact_count()), 1);
     const test::Graph graph =
         test::explore(model.system(), trace, {.policy = BranchPolicy::most_stable, .preference = {middle}});
 

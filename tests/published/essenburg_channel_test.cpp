@@ -48,7 +48,7 @@ Perfect perfect(const EssenburgChannel& described) {
   TraceOptions options;
   options.step.first = described.first_step;
   options.stop_contacts = 1;
-  options.node_contacts = true;
+  options.node_contacts.assign(static_cast<std::size_t>(model.system().contact_count()), 1);
   const test::Graph graph = test::explore(model.system(), options, {.policy = BranchPolicy::most_stable});
   return {.buckles = only_event(graph.branches.at(0), EventKind::branch_point).state.lambda,
           .touches = only_event(graph.branches.at(1), EventKind::contact_closes).state.lambda};

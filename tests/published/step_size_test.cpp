@@ -56,7 +56,7 @@ void expect_same_with_any_step(const ContactModel& model, double until, BranchPo
   TraceOptions usual;
   usual.step.first = 0.05;
   usual.target_values = {test::stop_at_lambda(-1.0), test::stop_at_lambda(until)};
-  usual.node_contacts = true;
+  usual.node_contacts.assign(static_cast<std::size_t>(model.system().contact_count()), 1);
   const MemberMesh& mesh = model.structure().members()[0];
   const auto middle = std::make_shared<MemberObservable>(model.structure(), mesh, (mesh.nodes.size() - 1) / 2,
                                                          MemberObservable::Component::z);
