@@ -82,10 +82,12 @@ class ContactQuery {
   /// The force of contact j alone, 0 where it is open [force].
   virtual double force(const State& state, Index j) const = 0;
 
-  /// The closed contacts of the state's active set, in their order.
+  /// The closed contacts of the state's active set, in their order. At the end of a part that is pressed on an obstacle
+  /// the force is that of the end alone, without the pressure beside it.
   virtual std::vector<ContactPoint> closed_contacts(const State& state) const = 0;
 
-  /// Nodes that are pressed on an obstacle between two closed contacts, where the layout of the active set has such.
+  /// Where parts are pressed on an obstacle: first their nodes between two closed contacts, as the layout of the active
+  /// set has them, then the half elements at closed contacts.
   virtual std::vector<ContactPoint> pressed_nodes(const State&) const { return {}; }
 
   /// The sum of what contacts of a wall contribute to the equations of equilibrium, so that it is in balance with loads

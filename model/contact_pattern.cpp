@@ -52,7 +52,7 @@ std::vector<RecordStretch> stretches_that_slide(const SlidingContact& contact, c
   }
   std::vector<std::optional<std::size_t>> lying(static_cast<std::size_t>(contact.body().strands()));
   const std::vector<ContactPoint> pressed = contact.pressed_nodes(state);
-  for (std::size_t i = 0; i < pressed.size(); ++i) {
+  for (std::size_t i = 0; i < layout.pressed_nodes().size(); ++i) {
     const SlidingContactLayout::Segment& part = layout.segments()[layout.pressed_nodes()[i].segment];
     std::optional<std::size_t>& whole = lying[static_cast<std::size_t>(part.strand)];
     if (!part.has_point() && !whole) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "contact/sliding/part_loads.hpp"
 #include "contact/sliding/pinches.hpp"
+#include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/touch.hpp"
 #include "contact/sliding/validity_bound.hpp"
 
@@ -58,6 +60,36 @@ ContactPoint at_pinch(const SlidingSetting& setting, const SlidingState& at, std
   return contact;
 }
 
+// Of the pressed parts that end at a closed contact, on its wall.
+std::vector<PressureAtEnd> pressures_at(const SlidingSetting& setting, const SlidingState& at, std::size_t j) {
+  std::vector<PressureAtEnd> pressures;
+  if (!at.is_closed(j) || at.layout.is_pinched(j)) return pressures;
+  const Touch touch = touch_of_contact(setting, at.layout, j);
+  const auto node_of = [&](Index point) { return at.mesh.breakpoint(point).second; };
+  for (std::size_t i = 0; i < at.layout.segments().size(); ++i) {
+    const SlidingContactLayout::Segment& part = at.layout.segments()[i];
+    if (part.span != SlidingContactLayout::Span::pressed || part.strand != touch.strand ||
+        obstacle_of_part(at, i) != touch.obstacle)
+      continue;
+    const bool begins = part.place == 0, ends = part.last_point < 0 && part.last_load < 0;
+    if (part.first_point >= 0 ? node_of(part.first_point) == touch.position : begins && touch.position == 0)
+      pressures.push_back(pressure_at_end(setting, at, i, false));
+    const Index last = at.mesh.nodes(part.strand) - 1;
+    if (part.last_point >= 0 ? node_of(part.last_point) == touch.position : ends && touch.position == last)
+      pressures.push_back(pressure_at_end(setting, at, i, true));
+  }
+  return pressures;
+}
+
+// What acts at a closed contact alone, without the pressure beside it.
+ContactPoint at_closed(const SlidingSetting& setting, const SlidingState& at, std::size_t j) {
+  const std::vector<PressureAtEnd> pressures = pressures_at(setting, at, j);
+  if (pressures.empty()) return contact_point(setting, at, j);
+  double force = at.force(j);
+  for (const PressureAtEnd& pressure : pressures) force -= pressure.force;
+  return at_node(setting, at, touch_of_contact(setting, at.layout, j), force);
+}
+
 }  // namespace
 
 ContactPoint contact_point(const SlidingSetting& setting, const SlidingState& at, std::size_t j) {
@@ -68,11 +100,11 @@ ContactPoint contact_point(const SlidingSetting& setting, const SlidingState& at
 
 std::vector<ContactPoint> closed_contacts(const SlidingSetting& setting, const SlidingState& at) {
   std::vector<ContactPoint> contacts;
-  for (std::size_t j = 0; j < at.contacts(); ++j)
-    if (at.is_closed(j)) {
-      contacts.push_back(contact_point(setting, at, j));
-      if (at.layout.is_pinched(j)) contacts.push_back(at_pinch(setting, at, j, true));
-    }
+  for (std::size_t j = 0; j < at.contacts(); ++j) {
+    if (!at.is_closed(j)) continue;
+    contacts.push_back(at_closed(setting, at, j));
+    if (at.layout.is_pinched(j)) contacts.push_back(at_pinch(setting, at, j, true));
+  }
   return contacts;
 }
 
@@ -85,6 +117,12 @@ std::vector<ContactPoint> pressed_nodes(const SlidingSetting& setting, const Sli
     node.label.tributary = 0.5 * (coordinate(touch.position + 1) - coordinate(touch.position - 1));
     nodes.push_back(std::move(node));
   }
+  for (std::size_t j = 0; j < at.contacts(); ++j)
+    for (const PressureAtEnd& pressure : pressures_at(setting, at, j)) {
+      ContactPoint end = at_node(setting, at, touch_of_contact(setting, at.layout, j), pressure.force);
+      end.label.tributary = pressure.length;
+      nodes.push_back(std::move(end));
+    }
   return nodes;
 }
 

@@ -32,8 +32,8 @@ struct Extent {
   double from, length;
 };
 
-Extent extent(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
-  const auto [from, to] = at.layout.ends(setting.body, part.segment, at.now.s);
+Extent extent(const SlidingSetting& setting, const SlidingState& at, const SlidingContactLayout::Segment& part) {
+  const auto [from, to] = at.layout.ends(setting.body, part, at.now.s);
   return {.from = from, .length = to - from};
 }
 
@@ -143,9 +143,9 @@ struct AtFraction {
 struct AheadOfPoint {
   double from, length;
 
-  AheadOfPoint(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
+  AheadOfPoint(const SlidingSetting& setting, const SlidingState& at, const SlidingContactLayout::Segment& part) {
     const Extent whole = extent(setting, at, part);
-    from = part.segment.has_point() ? whole.from - at.s(static_cast<Index>(part.segment.end_point())) : 0.0;
+    from = part.has_point() ? whole.from - at.s(static_cast<Index>(part.end_point())) : 0.0;
     length = whole.length;
   }
   double operator()(double r) const { return from + r * length; }
@@ -158,7 +158,7 @@ AtFraction least_on_straight(const SlidingSetting& setting, const SlidingState& 
   const double from = part.node == 0 ? 0.0 : (double(part.node) + 0.5) * h;
   const double to = part.node == part.nodes - 1 ? 1.0 : (double(part.node) + 1.5) * h;
   const HeldAxis held = held_axis(setting, at, part.segment);
-  const AheadOfPoint ahead(setting, at, part);
+  const AheadOfPoint ahead(setting, at, part.segment);
   const auto pressure = [&](double r) { return straight_pressure(setting, held, ahead(r)); };
   const auto at_fraction = [&](double r) { return AtFraction{.r = r, .pressure = pressure(r)}; };
   const AtFraction first = at_fraction(from), middle = at_fraction(0.5 * (from + to)), last = at_fraction(to);
@@ -172,7 +172,7 @@ AtFraction least_on_straight(const SlidingSetting& setting, const SlidingState& 
 // The place is at a fraction of the part, and moves along the body with its ends.
 Row gradient_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
   const SlidingContactLayout::Segment& ends = part.segment;
-  const double r = least_on_straight(setting, at, part).r, ahead = AheadOfPoint(setting, at, part)(r);
+  const double r = least_on_straight(setting, at, part).r, ahead = AheadOfPoint(setting, at, part.segment)(r);
   const HeldAxis held = held_axis(setting, at, ends);
   const double slope = straight_pressure_slope(setting, held, ahead);
   Row row = straight_pressure_gradient(setting, at, held, ahead);
@@ -181,17 +181,18 @@ Row gradient_on_straight(const SlidingSetting& setting, const SlidingState& at, 
   return row;
 }
 
-bool part_is_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
-  if (!part.segment.has_point()) return true;
+bool part_is_on_straight(const SlidingSetting& setting, const SlidingState& at,
+                         const SlidingContactLayout::Segment& part) {
+  if (!part.has_point()) return true;
   const AheadOfPoint ahead(setting, at, part);
-  const std::size_t point = part.segment.end_point();
+  const std::size_t point = part.end_point();
   return obstacle_is_straight(setting, at, point, ahead(0.0)) && obstacle_is_straight(setting, at, point, ahead(1.0));
 }
 
 }  // namespace
 
 bool lies_on_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
-  return part_is_on_straight(setting, at, PartOfNode(at.layout, node));
+  return part_is_on_straight(setting, at, PartOfNode(at.layout, node).segment);
 }
 
 bool part_needs_no_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t segment) {
@@ -208,8 +209,8 @@ bool part_needs_no_pressure(const SlidingSetting& setting, const SlidingState& a
 
 LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
   const PartOfNode part(at.layout, node);
-  if (part_is_on_straight(setting, at, part)) {
-    const auto [from, length] = extent(setting, at, part);
+  if (part_is_on_straight(setting, at, part.segment)) {
+    const auto [from, length] = extent(setting, at, part.segment);
     const AtFraction least = least_on_straight(setting, at, part);
     return {.value = least.pressure, .s = from + least.r * length};
   }
@@ -221,13 +222,13 @@ LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& 
 // The place of the least pressure moves, which at a least one, or at the end of its range, has no part in this.
 Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
   const PartOfNode part(at.layout, node);
-  return part_is_on_straight(setting, at, part) ? gradient_on_straight(setting, at, part)
-                                                : gradient_on_curve(setting, at, part);
+  return part_is_on_straight(setting, at, part.segment) ? gradient_on_straight(setting, at, part)
+                                                        : gradient_on_curve(setting, at, part);
 }
 
 double least_pressure_rate(const SlidingSetting& setting, const SlidingMotion& motion, std::size_t node) {
   const PartOfNode part(motion.at.layout, node);
-  if (!part_is_on_straight(setting, motion.at, part)) {
+  if (!part_is_on_straight(setting, motion.at, part.segment)) {
     const CurvePressure on(setting, motion.at, part.pressed.segment);
     const LeastOnCurve least = least_on_curve(setting, motion.at, part, on);
     double rate = 0.0;
@@ -236,6 +237,25 @@ double least_pressure_rate(const SlidingSetting& setting, const SlidingMotion& m
     if (!least.left) return rate;
   }
   return apply(least_pressure_gradient(setting, motion.at, node), motion.direction);
+}
+
+// The pressure is linear over the element: ∫ (p₀ + p₁ − p₀ ξ) (1 − 3ξ² + 2ξ³) h dξ.
+PressureAtEnd pressure_at_end(const SlidingSetting& setting, const SlidingState& at, std::size_t segment, bool last) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
+  const double h = extent(setting, at, part).length / part.elements;
+  const Index end = last ? part.elements : 0, next = last ? part.elements - 1 : 1;
+  double at_end = 0.0, at_next = 0.0;
+  if (part_is_on_straight(setting, at, part)) {
+    const HeldAxis held = held_axis(setting, at, part);
+    const AheadOfPoint ahead(setting, at, part);
+    at_end = straight_pressure(setting, held, ahead(double(end) / part.elements));
+    at_next = straight_pressure(setting, held, ahead(double(next) / part.elements));
+  } else {
+    const CurvePressure on(setting, at, segment);
+    at_end = on.pressure(end);
+    at_next = on.pressure(next);
+  }
+  return {.force = h * (0.35 * at_end + 0.15 * at_next), .length = 0.5 * h};
 }
 
 }  // namespace arcwall::sliding

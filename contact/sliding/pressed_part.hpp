@@ -28,6 +28,13 @@ Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& a
 /// Its derivative along a direction.
 double least_pressure_rate(const SlidingSetting& setting, const SlidingMotion& motion, std::size_t node);
 
+/// What the pressure of a pressed part adds to the force of the node at one of its ends.
+struct PressureAtEnd {
+  double force = 0.0;   ///< of the wall, by the end's shape function [force]
+  double length = 0.0;  ///< of axis for which it stands: half an element
+};
+PressureAtEnd pressure_at_end(const SlidingSetting& setting, const SlidingState& at, std::size_t segment, bool last);
+
 /// Fewest elements of a part that is pressed on a straight obstacle, or on a curved one, which it has to follow.
 constexpr int fewest_pressed(bool straight) { return straight ? 2 : 8; }
 

@@ -292,4 +292,40 @@ path = { step = 0.05, branches = "most-stable", stop = { lambda = [-1.0, 10.0] }
   EXPECT_NEAR(std::sqrt(P * (1.0 - P / column_EA) / column_EI) * d, 2.0 * pi, 1e-5);
 }
 
+// A heavy strip that a force lifts in its middle by F/2 beyond what its weight bears: the arch is 3F/(2q) long, and
+// each of its ends presses by F/4 on the floor. The pressure beside an end is no part of that.
+TEST(Lying, TheEndOfAZoneBearsItsOwnForce) {
+  constexpr double q = 1e-3, F = 4e-3;
+  for (const int elements : {20, 80}) {
+    const Session run = traced(R"toml(
+title = "A heavy strip that is lifted"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1e6, I = 1.0 }
+point = { a = [-10.0, 0.0], b = [10.0, 0.0] }
+support = { a = ["x"] }
+load = [{ on = "strip", distributed = [0.0, -1e-3], constant = true }, { at = "strip:0.5", force = [0.0, 4e-3] }]
+wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = 0.0 } }]
+path = { step = 0.05, branches = "primary", stop = { lambda = [-1.0, 1.0] } }
+[member.strip]
+from = "a"
+to = "b"
+theory = "euler-bernoulli"
+material = "m"
+section = "s"
+elements = )toml" + std::to_string(elements));
+    const RecordPoint& last = run.points().back();
+    ASSERT_EQ(last.lambda, 1.0);
+    std::vector<double> ends;
+    for (const RecordForce& contact : last.forces)
+      if (contact.label.fraction > 0.0 && contact.label.fraction < 1.0) ends.push_back(contact.force);
+    ASSERT_EQ(ends.size(), 2u);
+    for (const double force : ends) EXPECT_NEAR(force, F / 4.0, 1e-6 * F);
+    // The free ends of the strip lie on the floor with pressure alone.
+    for (const RecordForce& contact : last.forces)
+      if (contact.label.fraction == 0.0 || contact.label.fraction == 1.0) {
+        EXPECT_NEAR(contact.force, 0.0, 1e-6 * q);
+      }
+  }
+}
+
 }  // namespace arcwall::lying_test
