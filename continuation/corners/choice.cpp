@@ -66,6 +66,7 @@ void remember(std::vector<VisitedCorner>& visited, CornerVisit visit) {
     visited.push_back(std::move(visit.corner));
     return;
   }
+  visited[visit.which].arc = visit.corner.arc;
   std::vector<Direction>& ways = visited[visit.which].ways;
   for (Direction& way : visit.corner.ways) ways.push_back(std::move(way));
 }
@@ -82,7 +83,7 @@ std::optional<Index> count_along(TraceTools& tools, const OutgoingDirection& way
 }
 
 Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std::vector<OutgoingDirection> ways,
-              const PathPoint& at, const StabilityCount& before, double lambda_scale, bool stands) {
+              const PathPoint& at, const StabilityCount& before, double lambda_scale) {
   const ActiveSet open = at.state.active_set.all_open();
   const Metric metric = tools.metric_on(open, lambda_scale);
   const State here = tools.system.with_active_set(at.state, open);
@@ -101,10 +102,10 @@ Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std:
   };
   const auto place = std::find_if(visited.begin(), visited.end(), is_here);
   std::vector<Direction> known = place == visited.end() ? std::vector<Direction>{} : place->ways;
-  const bool again = !known.empty();
+  const bool again = !known.empty() && at.arc - place->arc > coincidence_tolerance;  // else it was never away
   known.push_back(reversed(incoming));
   Choice choice{.visit = {.which = static_cast<std::size_t>(place - visited.begin()),
-                          .corner = {.corner = here, .ways = {known.back()}}}};
+                          .corner = {.corner = here, .arc = at.arc, .ways = {known.back()}}}};
 
   std::erase_if(ways, [&](const OutgoingDirection& way) {
     const Direction direction = opened(way);
@@ -112,11 +113,10 @@ Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std:
                        [&](const Direction& d) { return metric.inner(d, direction) > same_way; });
   });
   if (ways.empty()) {
-    choice.result = again && !stands
-                        ? BranchEnd{.reason = EndReason::closed_loop,
-                                    .detail = "the branch came back to a change of contact that it had passed"}
-                        : BranchEnd{.reason = EndReason::no_continuation,
-                                    .detail = "no equilibrium continues the path beyond the change of contact"};
+    choice.result = again ? BranchEnd{.reason = EndReason::closed_loop,
+                                      .detail = "the branch came back to a change of contact that it had passed"}
+                          : BranchEnd{.reason = EndReason::no_continuation,
+                                      .detail = "no equilibrium continues the path beyond the change of contact"};
     return choice;
   }
   ChosenDirection chosen = ways.size() == 1

@@ -34,10 +34,10 @@ struct Choice {
 /// Of the directions that were not taken before: the stable one; of several the one along which λ goes on, where the
 /// path arrives stable, and then the one nearest the incoming direction; if none is stable, the one with fewest
 /// unstable directions that leaves the old active set (docs/theory.md, section 4). `at` is the place as it was reached,
-/// `before` the count just before it. Where all are taken the path is a closed loop; not if it `stands`, since contacts
-/// have changed there before, and nothing has moved in between.
+/// `before` the count just before it. Where all are taken the path is a closed loop, unless it has not moved since
+/// it was there.
 Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std::vector<OutgoingDirection> ways,
-              const PathPoint& at, const StabilityCount& before, double lambda_scale, bool stands);
+              const PathPoint& at, const StabilityCount& before, double lambda_scale);
 
 /// The contacts that hold along a direction: those with a force, and those that get one.
 ActiveSet holding_along(const TraceTools& tools, const OutgoingDirection& way, const State& corner);

@@ -288,7 +288,8 @@ TEST(Corner, APathThatStandsIsNoClosedLoop) {
     std::vector<VisitedCorner> visited;
     std::optional<BranchEnd> end;
     for (int round = 0; round < 4 && !end; ++round) {
-      Choice choice = choose(tools, visited, rays(toy, corner, all(toy)), at, {}, 1.0, stands);
+      at.arc = stands ? 0.0 : double(round);
+      Choice choice = choose(tools, visited, rays(toy, corner, all(toy)), at, {}, 1.0);
       if (const auto* const found = std::get_if<BranchEnd>(&choice.result)) end = *found;
       remember(visited, std::move(choice.visit));
     }
