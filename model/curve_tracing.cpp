@@ -50,7 +50,8 @@ EventCurve described(const deck::Deck& deck, const Model& model, const deck::Dec
                    .event = deck.curve->event,
                    .number = deck.curve->number,
                    .own_value = number.value};
-  for (const MonitorColumn& column : model.monitors()) curve.columns.push_back({column.name, column.unit});
+  for (const MonitorColumn& column : model.monitors())
+    curve.columns.push_back({column.name, column.unit, column.roundoff});
   return curve;
 }
 

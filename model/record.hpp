@@ -15,7 +15,8 @@ namespace arcwall {
 /// Stores a monitor's name and unit.
 struct RecordColumn {
   std::string name{};
-  std::string unit{};  ///< without brackets; may be empty
+  std::string unit{};     ///< without brackets; may be empty
+  double roundoff = 0.0;  ///< of values near zero
 };
 
 /// Stores what friction does at a closed contact.

@@ -83,7 +83,8 @@ Record empty_record(const Model& model) {
                 .has_friction = deck::has_friction(deck),
                 .moves_supports = moves_supports(model.whole_deck())};
   for (const deck::Stage& stage : model.whole_deck().stages) record.stages.push_back(stage.name);
-  for (const MonitorColumn& monitor : model.monitors()) record.columns.push_back({monitor.name, monitor.unit});
+  for (const MonitorColumn& monitor : model.monitors())
+    record.columns.push_back({monitor.name, monitor.unit, monitor.roundoff});
   return record;
 }
 

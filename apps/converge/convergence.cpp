@@ -33,6 +33,7 @@ std::vector<std::size_t> located(const Record& record) {
 struct Ranges {
   double lambda = 1.0;
   std::vector<double> monitors{};
+  std::vector<double> roundoff{};  // of the monitors
 };
 
 Ranges ranges_of(const Record& record) {
@@ -45,8 +46,10 @@ Ranges ranges_of(const Record& record) {
     return most > least ? most - least : 1.0;
   };
   Ranges ranges{.lambda = range([](const RecordPoint& point) { return point.lambda; })};
-  for (std::size_t i = 0; i < record.columns.size(); ++i)
+  for (std::size_t i = 0; i < record.columns.size(); ++i) {
     ranges.monitors.push_back(range([i](const RecordPoint& point) { return point.monitors[i]; }));
+    ranges.roundoff.push_back(record.columns[i].roundoff);
+  }
   return ranges;
 }
 
@@ -63,7 +66,8 @@ double distance(const RecordEvent& a, const RecordEvent& b, const Ranges& ranges
   if (a.kind != b.kind || a.monitor != b.monitor || a.value != b.value || walls_of(a) != walls_of(b)) return infinity;
   double greatest = std::abs(a.lambda - b.lambda) / ranges.lambda;
   for (std::size_t i = 0; i < a.monitors.size(); ++i)
-    greatest = std::max(greatest, std::abs(a.monitors[i] - b.monitors[i]) / ranges.monitors[i]);
+    if (const double apart = std::abs(a.monitors[i] - b.monitors[i]); apart > ranges.roundoff[i])
+      greatest = std::max(greatest, apart / ranges.monitors[i]);
   return greatest;
 }
 

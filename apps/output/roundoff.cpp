@@ -20,7 +20,8 @@ std::vector<double> roundoff(const Record& record) {
     common = std::max(common, greatest);
   }
   for (std::size_t i = 0; i < own.size(); ++i)
-    own[i] = part * (record.columns[i].unit.empty() ? own[i] : of_unit[record.columns[i].unit]);
+    own[i] = std::max(part * (record.columns[i].unit.empty() ? own[i] : of_unit[record.columns[i].unit]),
+                      record.columns[i].roundoff);
   return own;
 }
 
