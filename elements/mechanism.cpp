@@ -253,19 +253,55 @@ std::optional<Mechanism> find_mechanism(const Structure& structure) {
   return greatest;
 }
 
+namespace {
+
+constexpr double least_motion = 1e-9;  // of a motion of unit length
+
+// Directions of nodes, and how much each motion of a basis of those without strain moves each.
+struct MovedDirections {
+  std::vector<NodeDirection> directions{};
+  std::vector<Vector> rows{};
+
+  MovedDirections(const Structure& structure, const std::vector<Index>& nodes) {
+    const Motions motions(structure);
+    if (motions.count == 0) return;
+    const std::vector<Vector> null = null_vectors(Conditions(motions).matrix(), motions.count);
+    for (const Index node : nodes)
+      for (const Dof dof : {Dof::x, Dof::z}) {
+        Vector row(static_cast<Index>(null.size()));
+        for (std::size_t i = 0; i < null.size(); ++i)
+          row[static_cast<Index>(i)] = moved(motions, null[i], node, dof == Dof::x ? Vec2::UnitX() : Vec2::UnitY());
+        directions.push_back({.node = node, .dof = dof});
+        rows.push_back(std::move(row));
+      }
+  }
+};
+
+}  // namespace
+
 std::vector<NodeDirection> free_directions(const Structure& structure, const std::vector<Index>& nodes) {
-  constexpr double least = 1e-9;  // of a motion of unit length
-  const Motions motions(structure);
+  const MovedDirections all(structure, nodes);
   std::vector<NodeDirection> free;
-  if (motions.count == 0) return free;
-  const std::vector<Vector> null = null_vectors(Conditions(motions).matrix(), motions.count);
-  for (const Index node : nodes)
-    for (const Dof dof : {Dof::x, Dof::z}) {
-      const Vec2 direction = dof == Dof::x ? Vec2(Vec2::UnitX()) : Vec2(Vec2::UnitY());
-      const auto moves = [&](const Vector& q) { return std::abs(moved(motions, q, node, direction)) > least; };
-      if (std::any_of(null.begin(), null.end(), moves)) free.push_back({.node = node, .dof = dof});
-    }
+  for (std::size_t i = 0; i < all.rows.size(); ++i)
+    if ((all.rows[i].array().abs() > least_motion).any()) free.push_back(all.directions[i]);
   return free;
+}
+
+// By pivots: each is the direction that is moved most by what the ones before leave free.
+std::vector<NodeDirection> determinate_directions(const Structure& structure, const std::vector<Index>& nodes) {
+  constexpr double clearly = 1.0 + 1e-9;  // of two alike the first
+  MovedDirections left(structure, nodes);
+  std::vector<NodeDirection> chosen;
+  while (!left.rows.empty()) {
+    std::size_t pivot = 0;
+    for (std::size_t i = 1; i < left.rows.size(); ++i)
+      if (left.rows[i].norm() > clearly * left.rows[pivot].norm()) pivot = i;
+    if (left.rows[pivot].norm() <= least_motion) break;
+    const Vector taken = left.rows[pivot].normalized();
+    for (Vector& row : left.rows) row -= row.dot(taken) * taken;
+    chosen.push_back(left.directions[pivot]);
+  }
+  return chosen;
 }
 
 }  // namespace arcwall

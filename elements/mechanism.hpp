@@ -30,4 +30,8 @@ struct NodeDirection {
 /// The directions of those nodes in which some motion without strain moves them.
 std::vector<NodeDirection> free_directions(const Structure& structure, const std::vector<Index>& nodes);
 
+/// As few of these as stop all motions without strain that they can stop together: springs there are statically
+/// determinate. They bear what loads and contact leave out of balance, and nothing where the structure is deformed.
+std::vector<NodeDirection> determinate_directions(const Structure& structure, const std::vector<Index>& nodes);
+
 }  // namespace arcwall

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "core/algebra/bordered_solver.hpp"
 #include "core/text.hpp"
 #include "elements/mechanism.hpp"
 #include "model/build_contact.hpp"
@@ -26,30 +27,81 @@ std::map<Index, int> ends_at_nodes(const Structure& structure) {
   return ends;
 }
 
-// Holds at those points, of the directions that are free.
-LooseHolds holds_at(const StructureOfDeck& described, const Structure& structure, double stiffness,
-                    const std::vector<Index>& nodes) {
+// A node, as a deck names it.
+struct NodePlace {
+  deck::Place at{};
+  Index node = 0;
+};
+
+std::vector<NodePlace> joints_at(const StructureOfDeck& described, const std::vector<Index>& nodes) {
+  std::vector<NodePlace> joints;
+  for (const auto& [name, node] : described.places.joints)
+    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
+      joints.push_back({.at = {.name = name}, .node = node});
+  return joints;
+}
+
+std::vector<Index> nodes_of(const std::vector<NodePlace>& places) {
+  std::vector<Index> nodes;
+  for (const NodePlace& place : places) nodes.push_back(place.node);
+  return nodes;
+}
+
+// Springs in those directions of nodes.
+LooseHolds holds_in(const std::vector<NodeDirection>& directions, const std::vector<NodePlace>& places,
+                    double stiffness) {
   LooseHolds found;
-  for (const auto& [name, node] : described.places.joints) {
-    if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) continue;
-    LooseHolds::Hold hold{.at = {.name = name}};
-    for (const NodeDirection& free : free_directions(structure, {node}))
-      (free.dof == Dof::x ? hold.stiffness.x : hold.stiffness.z) = stiffness;
+  for (const NodePlace& place : places) {
+    LooseHolds::Hold hold{.at = place.at};
+    for (const NodeDirection& held : directions)
+      if (held.node == place.node) (held.dof == Dof::x ? hold.stiffness.x : hold.stiffness.z) = stiffness;
     if (hold.stiffness != deck::Stiffness{}) found.holds.push_back(std::move(hold));
   }
   return found;
 }
 
+// The stiffness of a body against what moves places in these directions while some of them, as few as hold it, stay
+// [force/length]: infinite if there are no others, 0 where nothing resists at first.
+double stiffness_between(const StructureOfDeck& described, const std::vector<NodeDirection>& directions,
+                         const std::vector<NodeDirection>& held) {
+  StructureBuilder builder = described.builder;
+  for (const NodeDirection& one : held) builder.fix(builder.dof(one.node, one.dof));
+  const auto structure = builder.build();
+  std::vector<Index> moved;
+  for (const NodeDirection& one : directions)
+    if (const auto unknown = structure->unknown(structure->dof(one.node, one.dof))) moved.push_back(*unknown);
+  if (moved.empty()) return infinity;
+  Linearization at_rest;
+  structure->linearize({.x = Vector::Zero(structure->size({})), .lambda = 0.0}, at_rest);
+  BorderedSolver solver;
+  if (solver.factorize(at_rest, 0) != FactorStatus::ok) return 0.0;
+  Matrix flexibility = Matrix::Zero(structure->size({}), static_cast<Index>(moved.size()));
+  for (std::size_t i = 0; i < moved.size(); ++i) flexibility(moved[i], static_cast<Index>(i)) = 1.0;
+  if (!solver.solve_inner(flexibility)) return 0.0;
+  return 1.0 / flexibility(moved, Eigen::all).norm();
+}
+
+// Springs at those places in all directions that move, which keep what is symmetric so, soft beside the softest member
+// and beside the body as a whole. Where nothing resists at first, in as few directions as hold the body.
+LooseHolds holds_at(const StructureOfDeck& described, const std::vector<NodePlace>& places, double softness,
+                    double softest_member) {
+  const auto structure = described.builder.build();
+  const std::vector<Index> nodes = nodes_of(places);
+  const std::vector<NodeDirection> all = free_directions(*structure, nodes),
+                                   fewest = determinate_directions(*structure, nodes);
+  const double body = stiffness_between(described, all, fewest);
+  return body > 0.0 ? holds_in(all, places, softness * std::min(softest_member, body))
+                    : holds_in(fewest, places, softness * softest_member);
+}
+
 // A joint or a node of a member, and how far it is from the walls that concern the member [length].
 struct FreePlace {
-  deck::Place at{};
+  NodePlace at{};
   Vec2 place = Vec2::Zero();
   double clearance = infinity;
 };
 
-std::vector<FreePlace> free_places(const deck::Deck& deck) {
-  DeckProblems ignored(deck.source);
-  const StructureOfDeck described = describe_structure(deck, ignored);
+std::vector<FreePlace> free_places(const deck::Deck& deck, const StructureOfDeck& described) {
   std::vector<FreePlace> places;
   for (const deck::Member& member : deck.members) {
     const MemberMesh& mesh = described.builder.mesh(described.places.members.at(member.name));
@@ -59,8 +111,8 @@ std::vector<FreePlace> free_places(const deck::Deck& deck) {
     const std::size_t last = mesh.nodes.size() - 1;
     for (std::size_t k = 0; k <= last; ++k) {
       FreePlace& free = places.emplace_back();
-      free.at.name = k == 0 ? member.from : k == last ? member.to : member.name;
-      if (k > 0 && k < last) free.at.fraction = mesh.fraction(k);
+      free.at = {.at = {.name = k == 0 ? member.from : k == last ? member.to : member.name}, .node = mesh.nodes[k]};
+      if (k > 0 && k < last) free.at.at.fraction = mesh.fraction(k);
       free.place = mesh.shape[k].position;
       for (const auto& obstacle : obstacles)
         free.clearance = std::min(free.clearance, obstacle->gap_slope(free.place, 0.0).value);
@@ -71,8 +123,10 @@ std::vector<FreePlace> free_places(const deck::Deck& deck) {
 
 // Holds at two places from which contact, which may come anywhere along members, is far: the farthest from the walls,
 // and of those that are at least half as far the one that is farthest from it.
-LooseHolds holds_far_from_walls(const deck::Deck& deck, double stiffness) {
-  const std::vector<FreePlace> places = free_places(deck);
+LooseHolds holds_far_from_walls(const deck::Deck& deck, double softness, double softest_member) {
+  DeckProblems ignored(deck.source);
+  const StructureOfDeck described = describe_structure(deck, ignored);
+  const std::vector<FreePlace> places = free_places(deck, described);
   const auto& first = *std::max_element(
       places.begin(), places.end(), [](const FreePlace& a, const FreePlace& b) { return a.clearance < b.clearance; });
   const FreePlace* second = &first;
@@ -80,10 +134,7 @@ LooseHolds holds_far_from_walls(const deck::Deck& deck, double stiffness) {
     if (place.clearance >= 0.5 * first.clearance &&
         (place.place - first.place).norm() > (second->place - first.place).norm())
       second = &place;
-  LooseHolds found;
-  for (const FreePlace* place : {&first, second})
-    found.holds.push_back({.at = place->at, .stiffness = {.x = stiffness, .z = stiffness}});
-  return found;
+  return holds_at(described, {first.at, second->at}, softness, softest_member);
 }
 
 // Where no load drives a body it stays to the digits by which the springs stand out of round-off.
@@ -175,17 +226,20 @@ LooseHolds loose_holds(const deck::Deck& deck) {
   DeckProblems ignored(deck.source);
   const StructureOfDeck described = describe_structure(deck, ignored, Mesh::coarsest);
   const auto structure = described.builder.build();
-  const double stiffness = softness_for(deck) * softest_stiffness(deck, *structure);
+  const double softness = softness_for(deck), softest = softest_stiffness(deck, *structure);
   std::vector<Index> tips, all;
   for (const auto& [node, ends] : ends_at_nodes(*structure)) {
     all.push_back(node);
     if (ends == 1) tips.push_back(node);
   }
   const auto holds = [&](const LooseHolds& found) { return !found.empty() && hold_all(deck, found); };
-  if (LooseHolds found = holds_at(described, *structure, stiffness, tips); holds(found)) return found;
+  const auto at_nodes = [&](const std::vector<Index>& nodes) {
+    return holds_at(described, joints_at(described, nodes), softness, softest);
+  };
+  if (LooseHolds found = at_nodes(tips); holds(found)) return found;
   if (tips.empty())
-    if (LooseHolds found = holds_far_from_walls(deck, stiffness); holds(found)) return found;
-  if (LooseHolds found = holds_at(described, *structure, stiffness, all); holds(found)) return found;
+    if (LooseHolds found = holds_far_from_walls(deck, softness, softest); holds(found)) return found;
+  if (LooseHolds found = at_nodes(all); holds(found)) return found;
   return {};
 }
 
@@ -199,8 +253,8 @@ LooseHolds holds_until_stiffened(const deck::Deck& deck) {
   const auto structure = described.builder.build();
   std::vector<Index> joints;
   for (const auto& [name, node] : described.places.joints) joints.push_back(node);
-  const LooseHolds found =
-      holds_at(described, *structure, LooseHolds::softness * softest_stiffness(deck, *structure), joints);
+  const double stiffness = LooseHolds::softness * softest_stiffness(deck, *structure);
+  const LooseHolds found = holds_in(free_directions(*structure, joints), joints_at(described, joints), stiffness);
   return !found.empty() && hold_all(deck, found) ? found : LooseHolds{};
 }
 

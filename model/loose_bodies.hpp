@@ -11,10 +11,11 @@ namespace arcwall {
 
 /// How bodies that nothing but contact holds are kept where they are as far as neither contact nor loads say where they
 /// go: by springs to the ground at ends of members, in the directions in which these can move without strain; where
-/// there is no end, at two nodes far from walls. The springs are so soft that their forces do not count
-/// beside those that deform a member, and stiff enough for the equations to have one solution.
+/// there is no end, at two nodes far from walls. The springs are so soft that their forces do not count beside those
+/// that deform the softest member, or the body where that is softer, as with a weak tie; and stiff enough for the
+/// equations to have one solution.
 struct LooseHolds {
-  static constexpr double softness = 1e-7;  ///< beside the softest member; 1000 times as much in decks without loads
+  static constexpr double softness = 1e-7;  ///< beside what is softest; 1000 times as much in decks without loads
 
   struct Hold {
     deck::Place at{};

@@ -198,6 +198,25 @@ TEST(FreeDirections, AreThoseOfAllMotions) {
   }
 }
 
+// A free beam has three motions, and both ends move in x and z: three directions hold it, and leave its length alone.
+TEST(DeterminateDirections, AreAsManyAsThereAreMotions) {
+  StructureBuilder builder;
+  builder.add_joint({0.0, 0.0});
+  builder.add_joint({2.0, 0.0});
+  builder.add_member({.name = "beam",
+                      .from = 0,
+                      .to = 1,
+                      .axis = straight_axis({0.0, 0.0}, {2.0, 0.0}),
+                      .section = {.E = 1.0, .A = 1.0, .I = 1.0}});
+  EXPECT_EQ(free_directions(*builder.build(), {0, 1}).size(), 4u);
+  const std::vector<NodeDirection> held = determinate_directions(*builder.build(), {0, 1});
+  ASSERT_EQ(held.size(), 3u);
+  EXPECT_EQ(std::count_if(held.begin(), held.end(), [](const NodeDirection& one) { return one.dof == Dof::x; }), 1);
+  for (const NodeDirection& one : held) builder.add_ground_stiffness(builder.dof(one.node, one.dof), 1e-3);
+  EXPECT_FALSE(find_mechanism(*builder.build()));
+  EXPECT_TRUE(determinate_directions(*builder.build(), {0, 1}).empty());
+}
+
 // A beam on one hinge turns about it, unless a spring holds its other end or its rotation.
 TEST(FindMechanism, SpringsToTheGroundHold) {
   for (const int springs : {0, 1, 2}) {

@@ -97,6 +97,31 @@ TEST(LooseBodies, AreBentOverProps) {
   expect_confirmed(bent);
 }
 
+// An A-frame of bars, two steep and a soft tie of stiffness k, is pressed on a smooth floor: its feet spread by u,
+// where P = 2 k u tan α. What keeps it from sliding away bears none of that, however much stiffer it is than the tie.
+TEST(LooseBodies, AreDeformedAsIfNothingHeldThem) {
+  constexpr double k = 20.0, P = 5.0;
+  const TracedDeck spread(R"(
+title = "A-frame with a soft tie"
+units = { length = "m", force = "N" }
+material.m = { E = 2.1e11 }
+section.s = { shape = "general", A = 0.01, I = 1e-6 }
+point = { a = [-1.0, 0.0], t = [0.0, 1.0], b = [1.0, 0.0] }
+path = { step = 1.0, stop = { lambda = [-1.0, 5.0] } }
+member.l = { from = "a", to = "t", theory = "truss", strain = "engineering", material = "m", section = "s", elements = 1 }
+member.r = { from = "t", to = "b", theory = "truss", strain = "engineering", material = "m", section = "s", elements = 1 }
+load = [{ at = "t", force = [0.0, -1.0] }]
+spring = [{ between = ["a", "b"], stiffness = { x = 20.0 } }]
+wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = 0.0 } }]
+monitor = [{ name = "a", at = "a", component = "x" }, { name = "b", at = "b", component = "x" }]
+)");
+  const RecordPoint& last = spread.record().points.back();
+  ASSERT_EQ(last.lambda, P);
+  const double u = monitored(last, 1) - monitored(last, 0), half = 0.5 * (2.0 + u);
+  EXPECT_NEAR(2.0 * k * u * std::sqrt(2.0 - half * half) / half, P, 1e-6 * P);
+  EXPECT_NEAR(u, 0.145515, 1e-6);
+}
+
 // Half a millimetre above its props the beam falls onto them: it rests with the deflection of its weight, between two
 // props with ends that overhang, and the nose meets it there.
 TEST(LooseBodies, FallOntoWhatHoldsThem) {
