@@ -245,7 +245,15 @@ Energy energy(const PointAtHand& at) {
     sum.value += part;
     sum.magnitude += std::abs(part);
   };
-  for (const Potential& potential : at.potentials) add(potential.energy(potential.at));
+  const Vector digits = roundoff(at);
+  for (std::size_t e = 0; e < at.potentials.size(); ++e) {
+    const Potential& potential = at.potentials[e];
+    add(potential.energy(potential.at));
+    const Vector by_digits = forces(potential).cwiseAbs() + made_by(at, e, digits);
+    for (std::size_t i = 0; i < potential.unknowns.size(); ++i)
+      if (const Index unknown = potential.unknowns[i]; unknown >= 0)
+        sum.rounded += by_digits[static_cast<Index>(i)] * digits[unknown];
+  }
   add(-work_of_point_loads(at.model, at.point.state));
   for (const Touch& touch : at.touches.all) add(0.5 * touch.compliance * touch.force * touch.force);
   return sum;

@@ -54,6 +54,7 @@ Vector made_by(const PointAtHand& at, std::size_t potential, const Vector& off);
 struct Energy {
   double value = 0.0;
   double magnitude = 0.0;  ///< sum of the sizes of its parts
+  double rounded = 0.0;    ///< what the last digits of the unknowns make of it
 };
 Energy energy(const PointAtHand& at);
 

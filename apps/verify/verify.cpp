@@ -214,6 +214,7 @@ class Verifier {
       expected.energy = energy(at);
       expected.energy->value *= model.frame().factor();
       expected.energy->magnitude *= model.frame().factor();
+      expected.energy->rounded *= model.frame().factor();
       const ZeroEigenvalue zero = zero_eigenvalue(model, record_, point);
       expected.unstable = unstable_range(at, zero);
       if (!expected.unstable) ++uncounted_;

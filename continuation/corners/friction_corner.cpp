@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
 
 #include "continuation/path_tolerances.hpp"
+#include "continuation/step/path_constraint.hpp"
 #include "continuation/step/point_on_path.hpp"
+#include "core/algebra/slip_stiffness.hpp"
 #include "core/text.hpp"
 
 namespace arcwall {
@@ -18,8 +21,9 @@ namespace {
 constexpr int most_changes_here = 50;
 constexpr double mirror_images = 1e-8;       // by what bounds of friction that symmetry lets be reached together differ
 constexpr double same_motion = 1.0 - 1e-6;   // cosine above which two directions are one
-constexpr double rate_tolerance = 1e-7;      // a smaller rate is zero, relative to the greatest of its kind
-constexpr std::size_t most_combined = 4096;  // combinations of modes up to which all are tried
+constexpr double rate_noise = 1e-10;         // error of rates, relative to the greatest of their kind
+constexpr std::size_t few_contacts = 6;      // whose combinations are all tried
+constexpr std::size_t most_combined = 4096;  // combinations of modes that are tried where nothing else is found
 
 // A contact, and what it may do from here on; the first is what it would do at once where nothing is known.
 struct BoundContact {
@@ -33,6 +37,7 @@ struct Continuation {
   std::vector<ModeOfContact> modes{};
   State state{};
   Direction direction{};  // unit
+  Vector relieved{};      // by each slip alone of the friction that drives it [scale of guards]
   std::optional<Index> unstable{};
   double dissipation = 0.0;
 };
@@ -92,12 +97,30 @@ std::optional<Continuation> tangent_with(TraceTools& tools, const Corner& corner
   if (!solver.tangent(metric.row(across), way.direction, columns)) return std::nullopt;
   way.direction = unit(metric, std::move(way.direction));
   if (!way.direction.dx.allFinite()) return std::nullopt;
+  way.relieved = Vector::Zero(now.B.cols());
+  if (solver.inner_is_regular())
+    way.relieved = slip_stiffness(solver, now).diagonal().cwiseProduct(way.direction.dx.tail(now.B.cols())).cwiseAbs() /
+                   system.multiplier_scale();
   return way;
 }
 
-// What a way violates, and what each contact that does would do instead.
+int sign_of_rate(double value) { return value > 0.0 ? 1 : value < 0.0 ? -1 : 0; }
+
+// 1 where a contact slips on along a way, −1 where it would slip back, 0 where it does neither within the error of
+// rates. A stiff body slips by less than the error of other motions; then what its slip alone relieves tells.
+int sense_of_slip(const System& system, const Continuation& way, Index contact, double no_motion, double no_force) {
+  const std::vector<Index> slipping = system.slipping(way.state.active_set);
+  const auto its = std::find(slipping.begin(), slipping.end(), contact) - slipping.begin();
+  const double rate = system.slip_rate(way.state, way.direction, contact);
+  if (std::abs(rate) <= no_motion && way.relieved[its] <= no_force) return 0;
+  return sign_of_rate(rate);
+}
+
+// What a way violates, and what each contact that does would do instead. A slip is none if it relieves nothing, and
+// still one if its stick is known to be `overcome`: then the two are the same within the error of rates.
 std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& corner,
-                                      const std::vector<BoundContact>& choices, const Continuation& way) {
+                                      const std::vector<BoundContact>& choices, const Continuation& way,
+                                      const std::set<Index>& overcome) {
   using enum ContactMode;
   const System& system = tools.system;
   const ActiveSet& active_set = way.state.active_set;
@@ -109,9 +132,9 @@ std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& cor
     double& most = is_gap ? most_motion : most_force;
     most = std::max(most, std::abs(along.rates[j]));
   }
-  for (const BoundContact& choice : choices)
-    most_motion = std::max(most_motion, std::abs(system.slip_rate(way.state, way.direction, choice.contact)));
-  const double no_motion = rate_tolerance * most_motion, no_force = rate_tolerance * most_force;
+  for (const Index j : system.slipping(active_set))
+    most_motion = std::max(most_motion, std::abs(system.slip_rate(way.state, way.direction, j)));
+  const double no_motion = rate_noise * most_motion, no_force = rate_noise * most_force;
   std::vector<ModeOfContact> found;
   for (const BoundContact& choice : choices) {
     const Index j = choice.contact;
@@ -121,12 +144,12 @@ std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& cor
       found.push_back({.contact = j, .mode = system.is_rough(j) ? sticks : closed});
     else if (mode != open && choice.touches && rate < -no_force)
       found.push_back({.contact = j, .mode = open});
-    else if (slips(mode) && system.slip_rate(way.state, way.direction, j) <= no_motion)
+    else if (slips(mode) && sense_of_slip(system, way, j, no_motion, no_force) < (overcome.contains(j) ? 0 : 1))
       found.push_back({.contact = j, .mode = sticks});
   }
   const double tolerance = std::max(bound_tolerance(tools, corner), mirror_images);
   for (Index guard = contacts; guard < along.rates.size(); ++guard)
-    if (along.values[guard] <= tolerance && along.rates[guard] < -no_force)
+    if (along.values[guard] <= tolerance && along.rates[guard] < -tools.options.guard_tolerance * most_force)
       if (const auto beyond = system.beyond_friction_bound(active_set, guard)) found.push_back(*beyond);
   return found;
 }
@@ -141,11 +164,36 @@ double dissipation_along(const System& system, const Continuation& way) {
   return power;
 }
 
+// How the structure moves: with all contacts open, of unit length.
+Direction motion_along(const TraceTools& tools, const Corner& corner, const State& state, const Direction& direction) {
+  const ActiveSet open = state.active_set.all_open();
+  return unit(tools.metric_on(open, corner.lambda_scale),
+              {.dx = tools.system.transfer(direction.dx, state.active_set, open), .dlambda = direction.dlambda});
+}
+
+// Of ways that are one motion, that with the fewest slips.
+void add_way(const Metric& open_metric, const TraceTools& tools, const Corner& corner, Continuation way,
+             std::vector<Continuation>& ways) {
+  const auto slips_of = [&](const Continuation& one) { return tools.system.slipping(one.state.active_set).size(); };
+  const Direction motion = motion_along(tools, corner, way.state, way.direction);
+  for (Continuation& known : ways) {
+    const bool same =
+        open_metric.inner(motion_along(tools, corner, known.state, known.direction), motion) > same_motion;
+    if (!same || slips_of(way) == slips_of(known)) continue;
+    if (slips_of(way) < slips_of(known)) known = std::move(way);
+    return;
+  }
+  ways.push_back(std::move(way));
+}
+
 void add_both_senses(TraceTools& tools, const Corner& corner, const std::vector<BoundContact>& choices,
                      Continuation way, std::vector<Continuation>& ways) {
+  const Metric open_metric = tools.metric_on(corner.at.state.active_set.all_open(), corner.lambda_scale);
+  std::set<Index> all;
+  for (const BoundContact& choice : choices) all.insert(choice.contact);
   for (int sense = 0; sense < 2; ++sense) {
     if (sense == 1) way.direction = reversed(std::move(way.direction));
-    if (violations(tools, corner, choices, way).empty()) ways.push_back(way);
+    if (violations(tools, corner, choices, way, all).empty()) add_way(open_metric, tools, corner, way, ways);
   }
 }
 
@@ -164,41 +212,43 @@ std::vector<Continuation> every_way(TraceTools& tools, const Corner& corner, con
   }
 }
 
-// Of many contacts: all that violate the law change what they do, until none does; where that comes back to what was
-// tried before, the first of them alone.
+// Of many contacts, by block principal pivoting (Júdice and Pires 1994): all that violate the law change what they do,
+// as long as they become fewer; else the last of them alone, which ends where each combination has one solution
+// (Murty).
 std::vector<Continuation> one_way(TraceTools& tools, const Corner& corner, const std::vector<BoundContact>& choices,
                                   double sense) {
-  constexpr int most = 200;
+  constexpr int most_blocks = 10;  // in a row, without fewer violations
+  const std::size_t most_rounds = 20 * choices.size();
   std::vector<ModeOfContact> modes;
   for (const BoundContact& choice : choices) modes.push_back({.contact = choice.contact, .mode = choice.modes.front()});
-  std::vector<std::vector<ModeOfContact>> tried;
-  for (int round = 0; round < most; ++round) {
+  std::size_t fewest = choices.size() + 1;
+  int blocks = most_blocks;
+  std::set<Index> overcome;
+  for (std::size_t round = 0; round < most_rounds; ++round) {
     auto way = tangent_with(tools, corner, modes);
     if (!way) return {};
     if (way->direction.dlambda * sense < 0.0) way->direction = reversed(std::move(way->direction));
-    const auto wrong = violations(tools, corner, choices, *way);
+    auto wrong = violations(tools, corner, choices, *way, overcome);
     if (wrong.empty()) return {std::move(*way)};
-    const bool again = std::find(tried.begin(), tried.end(), modes) != tried.end();
-    tried.push_back(modes);
+    if (wrong.size() < fewest) {
+      fewest = wrong.size();
+      blocks = most_blocks;
+    } else if (blocks > 0) {
+      --blocks;
+    } else {
+      wrong = {*std::max_element(wrong.begin(), wrong.end(),
+                                 [](const ModeOfContact& a, const ModeOfContact& b) { return a.contact < b.contact; })};
+    }
     for (const ModeOfContact& change : wrong) {
       const auto its = std::find_if(modes.begin(), modes.end(),
                                     [&](const ModeOfContact& mode) { return mode.contact == change.contact; });
       if (its == modes.end()) return {};
       its->mode = change.mode;
-      if (again) break;
+      if (slips(change.mode)) overcome.insert(change.contact);
     }
   }
   return {};
 }
-
-// How the structure moves: with all contacts open, of unit length.
-Direction motion_along(const TraceTools& tools, const Corner& corner, const State& state, const Direction& direction) {
-  const ActiveSet open = state.active_set.all_open();
-  return unit(tools.metric_on(open, corner.lambda_scale),
-              {.dx = tools.system.transfer(direction.dx, state.active_set, open), .dlambda = direction.dlambda});
-}
-
-int sign_of_rate(double value) { return value > 0.0 ? 1 : value < 0.0 ? -1 : 0; }
 
 // The sign of the determinant of the equations times that of the rate of λ, which goes on through a corner.
 std::optional<int> orientation(std::optional<Index> negative, const Direction& direction) {
@@ -292,9 +342,13 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
   const double sense = corner.at.tangent.dlambda < 0.0 ? -1.0 : 1.0;
   std::size_t combined = 1;
   for (const BoundContact& choice : choices) combined = std::min(combined * choice.modes.size(), most_combined + 1);
-  const bool all_known = combined <= most_combined;
-  std::vector<Continuation> ways =
-      all_known ? every_way(tools, corner, choices) : one_way(tools, corner, choices, sense);
+  bool all_known = choices.size() <= few_contacts;
+  std::vector<Continuation> ways;
+  if (!all_known) ways = one_way(tools, corner, choices, sense);
+  if (ways.empty() && combined <= most_combined) {
+    ways = every_way(tools, corner, choices);
+    all_known = true;
+  }
   if (ways.empty() && !all_known) ways = one_way(tools, corner, choices, -sense);
 
   const Direction incoming = motion_along(tools, corner, corner.at.state, corner.at.tangent);
@@ -307,6 +361,14 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
   });
   const auto turns = [&](const Continuation& way) { return way.direction.dlambda * sense < 0.0; };
   if (corner.begins_branch && !std::all_of(ways.begin(), ways.end(), turns)) std::erase_if(ways, turns);
+  if (ways.empty() && !all_known) {
+    passed.end = {.reason = EndReason::no_continuation,
+                  .detail = with_place("of " + std::to_string(choices.size()) +
+                                           " contacts that may stick, slip or open here no motion was found in which "
+                                           "friction opposes slip",
+                                       place)};
+    return passed;
+  }
   if (ways.empty()) {
     passed.end = {.reason = EndReason::jammed,
                   .detail = with_place("no motion in which friction opposes slip leads on: the load can go no further "
@@ -338,7 +400,9 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
   }
   const Continuation& taken = ways[chosen];
   const Metric metric = tools.metric_on(taken.state.active_set, corner.lambda_scale);
-  CorrectorResult result = tools.corrector.inspect(taken.state, metric, taken.direction);
+  // Bounds that were reached together but for an error are met by all from here on.
+  CorrectorResult result = tools.corrector.correct(
+      taken.state, PlaneConstraint(metric, taken.state, taken.direction, 0.0), metric, taken.direction, 0.0);
   if (!result.converged()) {
     passed.end = {.reason = EndReason::singular, .detail = with_place(nothing_behind_change, place)};
     return passed;
@@ -348,6 +412,7 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
   at.arc = corner.at.arc;
   at.iterations = corner.at.iterations;
   at.count = tools.counter.count(at.state, at.negative_eigenvalues);
+  if (taken.unstable) at.count.unstable = taken.unstable;  // contacts that touch without a force hold along the way
   Event event{.state = at.state,
               .arc = at.arc,
               .residual = corner.at.residual,

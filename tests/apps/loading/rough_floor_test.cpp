@@ -1,0 +1,166 @@
+// Contact with friction at many nodes: which of them stick and which slip is found where loads turn, by closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/apps/loading/loading_decks.hpp"
+
+namespace arcwall::loading_test {
+
+namespace {
+
+double monitored_at_end(const TracedDeck& run, std::size_t which) { return run.record().points.back().monitors[which]; }
+
+// A rail of 10 m that its weight presses on a rough floor; w = 10 kN/m, μ = 0.5.
+std::string rail(int elements, const std::string& support, const std::string& loads, const std::string& stages) {
+  return fmt::format(R"(
+title = "Rail on a rough floor"
+units = {{ length = "m", force = "N" }}
+material.m = {{ E = 2e11, expansion = 1e-5 }}
+section.s = {{ shape = "rectangle", width = 0.1, height = 0.1 }}
+point = {{ a = [0.0, 0.0], b = [10.0, 0.0] }}
+{}
+path = {{ branches = "primary" }}
+member.rail = {{ from = "a", to = "b", theory = "euler-bernoulli", material = "m", section = "s", elements = {} }}
+wall = [{{ name = "floor", side = "below", contact_surface = "axis", profile = {{ type = "flat", z = 0.0 }}, friction = 0.5 }}]
+monitor = [{{ name = "x", at = "b", component = "x" }}, {{ name = "N", at = "rail:0.5", component = "axial-force" }}]
+[[load]]
+on = "rail"
+distributed = [0.0, -1.0e4]
+constant = true
+{}
+{})",
+                     support, elements, loads, stages);
+}
+
+std::string stage(const std::string& name, double step, double low, double high) {
+  return fmt::format("[[stage]]\nname = \"{}\"\ndrives = [\"load.1\"]\nstep = {}\nstop = {{ lambda = [{}, {}] }}\n",
+                     name, step, low, high);
+}
+
+}  // namespace
+
+// Heated by T its ends slip over the length EA α T/(μ w) = 2 m each, which grow by α T · 2 m/2; cooled by T half of
+// that takes itself back, and the middle bears nothing. Half of it at a plane of symmetry does the same.
+TEST(RoughFloor, ARailIsHeatedAndCooled) {
+  const std::string heat = "[[load]]\non = \"rail\"\ntemperature = 1.0\n",
+                    stages = stage("heat", 0.01, -1.0, 0.5) + stage("cool", -0.01, -0.5, 1.0);
+  for (const int elements : {20, 40, 60}) {
+    const TracedDeck whole(rail(elements, "", heat, stages));
+    ASSERT_EQ(whole.record().points.back().lambda, -0.5) << elements;
+    const double end = 1e-5 * 0.5 * 2.0 / 4.0, element = 10.0 / elements / 2.0;
+    EXPECT_NEAR(monitored_at_end(whole, 0), end, 0.5 * element * element * end) << elements;
+    EXPECT_NEAR(monitored_at_end(whole, 1), 0.0, 1e-6) << elements;
+    expect_confirmed(whole);
+  }
+  const TracedDeck half(rail(60, "support = { a = \"symmetry-x\" }", heat, stages));
+  ASSERT_EQ(half.record().points.back().lambda, -0.5);
+}
+
+// Pulled at one end by F = 40 kN it slips over F/(μ w) = 8 m and comes out by F²/(2 EA μ w) = 0.08 mm; pushed back by
+// as much it comes to the same on the other side.
+TEST(RoughFloor, ARailIsPulledAndPushed) {
+  const std::string pull = "[[load]]\nat = \"b\"\nforce = [400.0, 0.0]\n",
+                    stages = stage("pull", 1.0, -1.0, 100.0) + stage("push", -1.0, -200.0, 1.0);
+  for (const int elements : {30, 40}) {
+    const TracedDeck run(rail(elements, "support = { a = [\"x\"] }", pull, stages));
+    ASSERT_EQ(run.record().points.back().lambda, -200.0) << elements;
+    const double F = 4.0e4, out = F * F / (2.0 * 2e9 * 5e3);
+    EXPECT_NEAR(monitored_at_end(run, 0), -out, 5e-3 * out) << elements;
+    expect_confirmed(run);
+  }
+}
+
+// Two blocks of steel in series with springs of 100 N/m, which are softer by 2e7: each end of each slips at 3 N.
+TEST(RoughFloor, StiffBlocksSlipOneEndAfterTheOther) {
+  const TracedDeck run(R"(
+title = "Blocks in series"
+units = { length = "m", force = "N" }
+material.m = { E = 2e11 }
+section.block = { shape = "rectangle", width = 0.1, height = 0.1 }
+section.spring = { shape = "general", A = 5e-10, I = 1e-10 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0], c = [2.0, 0.0], e = [3.0, 0.0], d = [4.0, 0.0] }
+path = { branches = "primary", stop = { lambda = [-2.0, 2.0] } }
+member.p = { from = "a", to = "b", theory = "euler-bernoulli", material = "m", section = "block", elements = 1 }
+member.q = { from = "c", to = "e", theory = "euler-bernoulli", material = "m", section = "block", elements = 1 }
+[member.k1]
+from = "b"
+to = "c"
+theory = "truss"
+strain = "engineering"
+material = "m"
+section = "spring"
+elements = 1
+[member.k2]
+from = "e"
+to = "d"
+theory = "truss"
+strain = "engineering"
+material = "m"
+section = "spring"
+elements = 1
+[[load]]
+on = "p"
+distributed = [0.0, -20.0]
+constant = true
+[[load]]
+on = "q"
+distributed = [0.0, -20.0]
+constant = true
+[[prescribed]]
+at = "d"
+x = 0.5
+z = 0.0
+[[wall]]
+name = "floor"
+side = "below"
+contact_surface = "axis"
+members = ["p", "q"]
+profile = { type = "flat", z = 0.0 }
+friction = 0.3
+)");
+  const auto slips = events_of(run, EventKind::contact_slips);
+  ASSERT_EQ(slips.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double pulled = 3.0 * double(i + 1), held_back = i < 2 ? 0.0 : 6.0;  // of the blocks, of the one behind
+    const double way = pulled / 100.0 + (i < 2 ? 0.0 : (pulled - held_back) / 100.0);
+    EXPECT_NEAR(slips[i].lambda, way / 0.5, 1e-4 * way) << i;
+  }
+  EXPECT_EQ(run.record().points.back().lambda, 2.0);
+  expect_confirmed(run);
+}
+
+// An A-frame whose feet slip apart until its ridge lies on the floor: what touches there holds from then on.
+TEST(RoughFloor, AFrameCollapsesOnItsFloor) {
+  const TracedDeck run(R"(
+title = "A-frame collapses"
+material.m = { E = 2e9 }
+section.s = { shape = "general", A = 0.01, I = 1e-6 }
+point = { a = [-1.0, 0.0], t = [0.0, 1.0], b = [1.0, 0.0] }
+path = { step = 1.0, stop = { lambda = [-1.0, 60.0] } }
+member.l = { from = "a", to = "t", theory = "truss", strain = "engineering", material = "m", section = "s", elements = 1 }
+member.r = { from = "t", to = "b", theory = "truss", strain = "engineering", material = "m", section = "s", elements = 1 }
+spring = [{ between = ["a", "b"], stiffness = { x = 20.0 } }]
+wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = 0.0 }, friction = 0.4 }]
+monitor = [{ name = "ridge", at = "t", component = "z" }]
+[[load]]
+at = "a"
+force = [0.0, -10.0]
+constant = true
+[[load]]
+at = "b"
+force = [0.0, -12.0]
+constant = true
+[[load]]
+at = "t"
+force = [0.0, -1.0]
+)");
+  EXPECT_EQ(run.record().points.back().lambda, 60.0);
+  EXPECT_NEAR(monitored_at_end(run, 0), -1.0, 1e-12);
+  EXPECT_EQ(run.record().points.back().count.unstable, Index{0});
+  expect_confirmed(run);
+}
+
+}  // namespace arcwall::loading_test
