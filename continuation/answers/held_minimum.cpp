@@ -14,6 +14,7 @@ constexpr double contact_violated = 1e-10;  // [scale of guards]
 constexpr double far_correction = 10.0;     // of a correction [path metric]
 constexpr double exact_with_drag = 0.05;    // of the motion: the last correction of a motion with drag
 constexpr double misled = 0.5;              // of the predicted motion: its error, with drag
+constexpr double rounded = 1e-14;           // of a correction, that is round-off [path metric]
 constexpr double rigid = 1e8;               // times the own stiffness of a degree of freedom that keeps its value
 
 void toggle(ActiveSet& active_set, Index j) {
@@ -32,7 +33,9 @@ std::optional<State> HeldMinimum::with_held(Index dof, const State& start, doubl
   return find(start, {.dof = dof, .arrived = arrived});
 }
 
-std::optional<State> HeldMinimum::with_drag(double mu, const State& start) { return find(start, {.mu = mu}); }
+std::optional<State> HeldMinimum::with_drag(double mu, const State& start) {
+  return find(start, {.mu = mu, .arrived = rounded});
+}
 
 std::optional<State> HeldMinimum::find(const State& start, const Hold& hold) {
   State state = start;

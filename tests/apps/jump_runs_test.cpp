@@ -244,6 +244,29 @@ TEST(JumpRuns, EndBehindABoundThatTheJumpPasses) {
   test::expect_whole(run);
 }
 
+// A half truss of height 0.3 snaps onto a floor at −0.1, where it would fall on by itself: the floor bears
+// λ + EA (L₀ − L)/L₀ · 0.1/L.
+TEST(JumpRuns, EndOnAFloorThatAloneHoldsTheStructure) {
+  const TracedDeck run(R"(
+title = "Snap onto a floor"
+material.m = { E = 1e6 }
+section.s = { shape = "general", A = 1e-3, I = 1e-9 }
+point = { a = [-1.0, 0.0], t = [0.0, 0.3] }
+support = { a = ["x", "z"], t = ["x"] }
+path = { step = 0.1, stop = { lambda = [-100.0, 30.0] }, branches = "jump" }
+member.l = { from = "a", to = "t", theory = "truss", strain = "engineering", material = "m", section = "s", elements = 1 }
+load = [{ at = "t", force = [0.0, -1.0] }]
+wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = -0.1 } }]
+monitor = [{ name = "z", at = "t", component = "z" }, { name = "floor", wall = "floor", component = "force-z" }]
+)");
+  const double L0 = std::sqrt(1.09), L = std::sqrt(1.01);
+  const RecordEvent& snaps = event_of(run, EventKind::limit_point);
+  ASSERT_NE(snaps.jump, nullptr);
+  EXPECT_NEAR(snaps.jump->monitors.at(0), -0.4, 1e-12);
+  EXPECT_NEAR(snaps.jump->monitors.at(1), snaps.lambda + 1e3 * (L0 - L) / L0 * 0.1 / L, 1e-9);
+  EXPECT_EQ(run.record().points.back().lambda, 30.0);
+}
+
 // A beam that slides hangs on a spring whose force has a maximum of 1: beyond it nothing holds the load.
 TEST(JumpRuns, EndWhereNothingHoldsTheStructure) {
   Session run = test::traced(R"toml(
