@@ -99,6 +99,25 @@ bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::
   return false;
 }
 
+std::vector<std::string> interference_warnings(const deck::Deck& deck, const MultiplierContact& at_nodes,
+                                               const SlidingContact* sliding) {
+  const State rest{.x = Vector::Zero(at_nodes.size(at_nodes.open_active_set())), .lambda = 0.0};
+  const bool between_nodes = sliding != nullptr && sliding->entered(sliding->rest(), 0.0);
+  std::vector<std::string> warnings;
+  for (const deck::Wall& wall : deck.walls) {
+    bool overlaps = between_nodes;
+    for (Index j = 0; j < at_nodes.contact_count(); ++j) {
+      const Candidate& candidate = at_nodes.candidate(j);
+      overlaps = overlaps || (candidate.label().wall == wall.name && candidate.gap(rest) < 0.0);
+    }
+    if (wall.interference > 0.0 && !overlaps)
+      warnings.push_back("the interference of wall \"" + wall.name +
+                         "\" has no effect: the undeformed structure does not overlap with the wall as it is drawn; "
+                         "draw the wall where it is to be in the end");
+  }
+  return warnings;
+}
+
 void check_friction(const deck::Deck& deck, const Structure& structure, const std::vector<Candidate>& candidates,
                     bool sliding, DeckProblems& problems) {
   if (!deck::has_friction(deck)) return;

@@ -25,6 +25,11 @@ bool may_slide(const deck::Deck& deck, const StructureBuilder& builder);
 bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::vector<Candidate>& candidates,
             DeckProblems& problems);
 
+/// What to tell of walls with an interference that the undeformed structure does not reach into, at nodes or between
+/// them. `sliding`: contact at moving points; else null.
+std::vector<std::string> interference_warnings(const deck::Deck& deck, const MultiplierContact& at_nodes,
+                                               const SlidingContact* sliding);
+
 /// Adds what a deck with friction asks for that friction does not know.
 void check_friction(const deck::Deck& deck, const Structure& structure, const std::vector<Candidate>& candidates,
                     bool sliding, DeckProblems& problems);

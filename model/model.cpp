@@ -140,6 +140,10 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
     options_.corner.max_enumerated = 0;
   }
 
+  if (contact_ && stage_ == 0) {
+    std::vector<std::string> told = interference_warnings(*deck_, *contact_, sliding_.get());
+    std::move(told.begin(), told.end(), std::back_inserter(warnings_));
+  }
   if (contact_) {
     const ContactScales& scales = sliding_ ? sliding_->scales() : contact_->scales();
     options_.mesh_error_of_forces = mesh_error_of_forces(scales);

@@ -108,9 +108,10 @@ void wall_keys(Keys& keys, Wall& wall, std::unordered_set<std::string>& taken, c
         "profile", Form::dotted, [&](Keys& of) { profile_keys(of, wall); },
         "z = ψ(x), one of the following; or an `outline`");
   outline_keys(keys, wall);
-  keys.number(
-      optional("interference"), wall.interference, unit::length, not_negative,
-      "initial overlap with the undeformed structure; the wall moves into place while the constant loads are applied");
+  keys.number(optional("interference"), wall.interference, unit::length, not_negative,
+              "allowed overlap with the undeformed structure. The wall starts that far back and moves into place while "
+              "the constant "
+              "loads are applied");
   keys.number(optional("friction"), wall.friction, unit::none, not_negative,
               "coefficient μ of Coulomb friction: a contact sticks up to a friction force μ p, and slips at it");
   keys.part("motion", wall.motion, [&](WallMotion& motion) { motion_keys(keys, motion); });

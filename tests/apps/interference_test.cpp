@@ -49,6 +49,19 @@ TEST(Interference, OfAStopUnderTheMiddlePreloadsIt) {
   }
 }
 
+// A wall is where it is drawn in the end: an interference with what it does not overlap with does nothing, and says so.
+TEST(Interference, WithoutAnOverlapHasNoEffect) {
+  const auto told = [](double z) {
+    const TracedDeck traced(beam(stop("under", 1.0, z, true, 2e-4)));
+    int count = 0;
+    for (const std::string& warning : traced.model().warnings())
+      count += warning.find("interference of wall \"under\" has no effect") != std::string::npos ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(told(-1e-4), 1);
+  EXPECT_EQ(told(1e-4), 0);
+}
+
 // How far the wall was moved back does not matter.
 TEST(Interference, LeadsToTheSameStateFromFarther) {
   const std::string walls = stop("under", 0.9, 0.05, true, 0.06);
