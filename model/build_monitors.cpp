@@ -603,10 +603,12 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measure
                      "remove the monitor, or use another method");
         continue;
       }
-      problems.add(
-          monitor.position, "monitor.component", "\"" + shown_name(monitor) + "\" does not have this component",
-          "a rotation needs a beam, a face a section with a height, a reaction a support, thickness the theory "
-          "\"essenburg\"; axial-force and moment need one member, and moment a beam");
+      problems.add(monitor.position, "monitor.component",
+                   "\"" + shown_name(monitor) + "\" does not have this component",
+                   "a rotation needs a beam, a face a section with a height, a reaction a support in its direction, "
+                   "reaction-moment "
+                   "one of the rotation, thickness the theory \"essenburg\"; axial-force and moment need one member, "
+                   "and moment a beam");
       continue;
     }
     MonitorColumn& column = columns.emplace_back(column_of(monitor.name, monitor.component, deck));

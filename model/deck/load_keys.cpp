@@ -82,7 +82,7 @@ void member_load_keys(Keys& keys, MemberLoad& load, const Deck& deck) {
   keys.vector(distributed, load.distributed, unit::line_load, "`[x, z]`, dead, per length of the undeformed axis");
   keys.part("distributed_to", load.distributed_to, [&](Vector& to) {
     keys.vector(optional("distributed_to", "uniform"), to, unit::line_load,
-                "`[x, z]` at the member's end, linear from `distributed`");
+                "`[x, z]` at the member's end, linear along its axis from `distributed`");
   });
   keys.word(optional("frame"), load.frame, frame_words,
             "of `distributed`: `\"member\"` gives components along the undeformed axis and across it, to the left");
