@@ -30,6 +30,7 @@ struct BoundContact {
   Index contact = 0;
   std::vector<ContactMode> modes{};
   bool touches = false;  // without a force
+  bool ended = false;    // its slip has: a stick has the same tangent, along which its friction stays at the bound
 };
 
 // One combination of modes: its equations hold at the corner, and the rates along the direction fulfil the law.
@@ -65,7 +66,7 @@ std::vector<BoundContact> choices_at(const TraceTools& tools, const Corner& corn
                                                      : std::vector{closed, open},
                          .touches = true});
     else if (slips(mode) && ended == j)
-      choices.push_back({.contact = j, .modes = {sticks}});
+      choices.push_back({.contact = j, .modes = {sticks}, .ended = true});
     else if (slips(mode))
       choices.push_back({.contact = j, .modes = {mode, sticks}});
   }
@@ -148,9 +149,14 @@ std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& cor
       found.push_back({.contact = j, .mode = sticks});
   }
   const double tolerance = std::max(bound_tolerance(tools, corner), mirror_images);
-  for (Index guard = contacts; guard < along.rates.size(); ++guard)
-    if (along.values[guard] <= tolerance && along.rates[guard] < -tools.options.guard_tolerance * most_force)
-      if (const auto beyond = system.beyond_friction_bound(active_set, guard)) found.push_back(*beyond);
+  for (Index guard = contacts; guard < along.rates.size(); ++guard) {
+    if (along.values[guard] > tolerance || along.rates[guard] >= -tools.options.guard_tolerance * most_force) continue;
+    const auto beyond = system.beyond_friction_bound(active_set, guard);
+    const auto has_ended = [&](const BoundContact& choice) {
+      return choice.ended && choice.contact == beyond->contact;
+    };
+    if (beyond && std::none_of(choices.begin(), choices.end(), has_ended)) found.push_back(*beyond);
+  }
   return found;
 }
 
@@ -301,6 +307,31 @@ std::vector<Event> events_between(const TraceTools& tools, const Corner& corner,
   return events;
 }
 
+// Friction is known to the error of the equations, by which contacts that stick at their bound may have passed it. They
+// hold the place at which it is met.
+void meet_bounds(TraceTools& tools, Corner& corner) {
+  const System& system = tools.system;
+  const ActiveSet& active_set = corner.at.state.active_set;
+  std::vector<ModeOfContact> at_bound, again;
+  for (auto guard = static_cast<Index>(active_set.contacts()); guard < corner.at.guards.size(); ++guard) {
+    if (corner.at.guards[guard] >= -tools.options.guard_tolerance) continue;
+    if (const auto beyond = system.beyond_friction_bound(active_set, guard)) {
+      at_bound.push_back(*beyond);
+      again.push_back({.contact = beyond->contact, .mode = ContactMode::sticks});
+    }
+  }
+  if (at_bound.empty()) return;
+  const State start = system.with_modes(corner.at.state, at_bound);
+  const Metric metric = tools.metric_on(start.active_set, corner.lambda_scale);
+  const Direction along = unit(metric, {.dx = system.transfer(corner.at.tangent.dx, active_set, start.active_set),
+                                        .dlambda = corner.at.tangent.dlambda});
+  const CorrectorResult met =
+      tools.corrector.correct(start, PlaneConstraint(metric, start, along, 0.0), metric, along, 0.0);
+  if (!met.converged()) return;
+  corner.at.state = system.with_modes(met.state, again);
+  corner.at.guards = system.guards(corner.at.state);
+}
+
 }  // namespace
 
 std::vector<EventDetector> slip_end_detectors(const System& system) {
@@ -325,12 +356,15 @@ std::vector<EventDetector> slip_end_detectors(const System& system) {
 
 bool may_change_at_start(const TraceTools& tools, const PathPoint& at) {
   if (!tools.system.has_friction()) return false;
+  const Index bounds = at.guards.size() - static_cast<Index>(at.state.active_set.contacts());
   return !tools.system.slipping(at.state.active_set).empty() ||
+         (at.guards.tail(bounds).array() <= tools.options.guard_tolerance).any() ||
          !degenerate_contacts(at.guards, at.state.active_set, tools.options.guard_tolerance).empty();
 }
 
 CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optional<Index> landed,
                                   std::optional<Index> ended) {
+  meet_bounds(tools, corner);
   CornerPassed passed{.at = corner.at, .without_progress = corner.without_progress};
   const std::vector<BoundContact> choices = choices_at(tools, corner, landed, ended);
   const std::string place = event_place(tools, corner, choices);

@@ -35,9 +35,9 @@ constant = true
                      support, elements, loads, stages);
 }
 
-std::string stage(const std::string& name, double step, double low, double high) {
-  return fmt::format("[[stage]]\nname = \"{}\"\ndrives = [\"load.1\"]\nstep = {}\nstop = {{ lambda = [{}, {}] }}\n",
-                     name, step, low, high);
+std::string stage(const std::string& name, const std::string& drives, double step, double low, double high) {
+  return fmt::format("[[stage]]\nname = \"{}\"\ndrives = [\"{}\"]\nstep = {}\nstop = {{ lambda = [{}, {}] }}\n", name,
+                     drives, step, low, high);
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ std::string stage(const std::string& name, double step, double low, double high)
 // that takes itself back, and the middle bears nothing. Half of it at a plane of symmetry does the same.
 TEST(RoughFloor, ARailIsHeatedAndCooled) {
   const std::string heat = "[[load]]\non = \"rail\"\ntemperature = 1.0\n",
-                    stages = stage("heat", 0.01, -1.0, 0.5) + stage("cool", -0.01, -0.5, 1.0);
+                    stages = stage("heat", "load.1", 0.01, -1.0, 0.5) + stage("cool", "load.1", -0.01, -0.5, 1.0);
   for (const int elements : {20, 40, 60}) {
     const TracedDeck whole(rail(elements, "", heat, stages));
     ASSERT_EQ(whole.record().points.back().lambda, -0.5) << elements;
@@ -63,7 +63,7 @@ TEST(RoughFloor, ARailIsHeatedAndCooled) {
 // as much it comes to the same on the other side.
 TEST(RoughFloor, ARailIsPulledAndPushed) {
   const std::string pull = "[[load]]\nat = \"b\"\nforce = [400.0, 0.0]\n",
-                    stages = stage("pull", 1.0, -1.0, 100.0) + stage("push", -1.0, -200.0, 1.0);
+                    stages = stage("pull", "load.1", 1.0, -1.0, 100.0) + stage("push", "load.1", -1.0, -200.0, 1.0);
   for (const int elements : {30, 40}) {
     const TracedDeck run(rail(elements, "support = { a = [\"x\"] }", pull, stages));
     ASSERT_EQ(run.record().points.back().lambda, -200.0) << elements;
@@ -160,6 +160,61 @@ force = [0.0, -1.0]
   EXPECT_EQ(run.record().points.back().lambda, 60.0);
   EXPECT_NEAR(monitored_at_end(run, 0), -1.0, 1e-12);
   EXPECT_EQ(run.record().points.back().count.unstable, Index{0});
+  expect_confirmed(run);
+}
+
+// Blocks in series by springs, on a slope that is steeper than their friction holds, are pushed up by a support and
+// drawn down again. The state at the end of each stage has the least of elastic energy, work of the weights and μ N |u
+// − u₀|, u₀ from the stage before: every block moves one way in a stage.
+TEST(RoughFloor, BlocksOnASlopeArePushedUpAndDrawnDown) {
+  constexpr int n = 8;
+  constexpr double stiffness = 40.0, mu = 0.3, slope = 0.37;
+  const double per_length = 1.0 / std::sqrt(1.0 + slope * slope);
+  const std::vector<double> weights{0.7, 1.25, 1.36, 0.97, 1.1, 0.8, 1.3, 0.5};
+  std::string text = fmt::format(R"(
+title = "Blocks on a slope"
+material.m = {{ E = {} }}
+section.s = {{ shape = "general", A = 1.0, I = 1.0 }}
+wall = [{{ name = "hill", side = "below", contact_surface = "axis", profile = {{ type = "line", z = 0.0, slope = {} }}, friction = {} }}]
+monitor = [{{ name = "last", at = "p{}", component = "x" }}]
+path = {{ branches = "primary" }}
+[point]
+p0 = [0.0, 0.0]
+)",
+                                 stiffness / per_length, slope, mu, n);
+  std::string members;
+  for (int i = 1; i <= n; ++i) {
+    text += fmt::format("p{} = [{}.0, {:.17g}]\n", i, i, slope * i);
+    members += fmt::format(
+        "[member.m{}]\nfrom = \"p{}\"\nto = \"p{}\"\ntheory = \"truss\"\nstrain = \"engineering\"\n"
+        "material = \"m\"\nsection = \"s\"\nelements = 1\n[[load]]\nat = \"p{}\"\n"
+        "force = [0.0, -{}]\nconstant = true\n",
+        i, i - 1, i, i, weights[static_cast<std::size_t>(i - 1)]);
+  }
+  const double up = 0.32, down = 0.42;
+  text += members +
+          fmt::format("[[prescribed]]\nat = \"p0\"\nx = {:.17g}\nz = {:.17g}\n", per_length, slope * per_length) +
+          stage("up", "prescribed.0", 0.01, -9.0, up) + stage("down", "prescribed.0", -0.01, -down, 9.0);
+
+  std::vector<double> u(n + 1, 0.0);
+  const auto least = [&](double driven) {
+    const std::vector<double> from = u;
+    u[0] = driven;
+    for (int sweep = 0; sweep < 20000; ++sweep)
+      for (std::size_t i = 1; i <= n; ++i) {
+        const double weight = weights[i - 1], held = mu * weight * per_length;
+        const double k = i < n ? 2.0 * stiffness : stiffness;
+        const double pull = stiffness * (u[i - 1] + (i < n ? u[i + 1] : 0.0)) - weight * slope * per_length;
+        const double excess = pull - k * from[i];
+        u[i] = from[i] + (excess > held ? excess - held : excess < -held ? excess + held : 0.0) / k;
+      }
+  };
+  least(0.0);
+  least(up);
+  least(up - down);
+  const TracedDeck run(text);
+  ASSERT_EQ(run.record().points.back().lambda, -down);
+  EXPECT_NEAR(monitored_at_end(run, 0), u[n] * per_length, 1e-7);
   expect_confirmed(run);
 }
 
