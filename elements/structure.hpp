@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -288,6 +289,9 @@ class StructureBuilder {
   /// Adds a load [force], or a moment [force·length] on a rotation, positive in the degree of freedom.
   void add_load(Index dof, double value, LoadKind kind);
 
+  /// Says that a load may act on a degree of freedom, as it does in another stage: a member has a node for it.
+  void expect_load(Index dof) { expected_loads_.insert(dof); }
+
   /// Adds a dead load along a member.
   void add_distributed_load(Index member, const LineLoad& load, LoadKind kind);
 
@@ -376,6 +380,7 @@ class StructureBuilder {
   std::vector<MemberMesh> meshes_;
   std::vector<Index> first_element_;  // of each member
   NodalTerms nodal_;
+  std::set<Index> expected_loads_;  // degrees of freedom
   std::vector<DistributedLoad> distributed_loads_;
   std::vector<FoundationLaw> foundations_;  // of each member
   std::vector<ThermalStrain> thermal_;      // likewise

@@ -241,7 +241,7 @@ std::vector<bool> StructureBuilder::nodes_with_terms() const {
   std::vector<bool> found(positions_.size(), false);
   for (std::size_t i = 0; i < dofs_.size(); ++i) {
     const auto dof = static_cast<Index>(i);
-    if (!nodal_.load(dof).is_zero() || nodal_.is_held(dof) || nodal_.ground_stiffness(dof) != 0.0)
+    if (!nodal_.load(dof).is_zero() || expected_loads_.contains(dof) || nodal_.is_held(dof) || nodal_.ground_stiffness(dof) != 0.0)
       found[static_cast<std::size_t>(dofs_[i].node)] = true;
   }
   for (const NodalTerms::Spring& spring : nodal_.springs())
@@ -264,7 +264,7 @@ bool StructureBuilder::carries_force_alone(Index node, Index rotation) const {
            std::none_of(springs.begin(), springs.end(), joins);
   };
   return is_free(dof(node, Dof::x)) && is_free(dof(node, Dof::z)) && is_free(rotation) &&
-         nodal_.load(rotation).is_zero();
+         nodal_.load(rotation).is_zero() && !expected_loads_.contains(rotation);
 }
 
 // Of each degree of freedom the set with which it may turn; −1 of those that do not.

@@ -311,9 +311,11 @@ void add_point_load(const deck::Load& load, const deck::PointLoad& action, bool 
   if (!dofs) return;
   out.builder.add_load(dofs->x, action.force.x, kind);
   out.builder.add_load(dofs->z, action.force.z, kind);
-  if (action.moment == 0.0) return;
+  if (action.has_force) out.builder.expect_load(dofs->x);
+  if (action.moment == 0.0 && !action.has_moment) return;
   if (dofs->rotation) {
     out.builder.add_load(*dofs->rotation, action.moment, kind);
+    if (action.has_moment) out.builder.expect_load(*dofs->rotation);
   } else {
     problems.add(action.at.position, "load.moment", "nothing at \"" + to_text(action.at) + "\" can take a moment",
                  "put the moment where a beam is joined without a hinge");

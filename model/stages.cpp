@@ -11,6 +11,8 @@ namespace {
 deck::Vector times(double factor, const deck::Vector& v) { return {.x = factor * v.x, .z = factor * v.z}; }
 
 void scale(deck::PointLoad& load, double factor) {
+  load.has_force = load.force != deck::Vector{};
+  load.has_moment = load.moment != 0.0;
   load.force = times(factor, load.force);
   load.moment *= factor;
 }

@@ -232,6 +232,9 @@ struct PointLoad {
   Vector force{};
   double moment = 0.0;  ///< positive anticlockwise [force·length]
 
+  /// A force or a moment acts here in some stage: the member has a node for it in all. No keys of a deck.
+  bool has_force = false, has_moment = false;
+
   bool operator==(const PointLoad&) const = default;
 };
 

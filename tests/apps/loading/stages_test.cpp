@@ -277,6 +277,35 @@ TEST(Stages, MayBeCutInTwo) {
   }
 }
 
+// A member has the same parts in all stages, whichever of them drives a force or a moment inside it: what one stage and
+// what two do, in either order, is the same.
+TEST(Stages, MayDriveLoadsInsideAMemberOneAfterTheOther) {
+  const std::string deck = R"(
+title = "Loads inside a member"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1e4, I = 1.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0] }
+support = { a = ["x", "z", "rotation"] }
+member.l = { from = "a", to = "b", theory = "euler-bernoulli", material = "m", section = "s", elements = 8 }
+load = [{ at = "b", force = [0.0, -0.1] }, { at = "l:0.5", moment = 0.3 }, { at = "l:0.25", force = [0.0, -0.4] }]
+wall = [{ name = "p", contact_surface = "axis", outline = { type = "half-plane", point = [0.0, -0.5], normal = [0.0, 1.0] } }]
+monitor = [{ name = "z", at = "b", component = "z" }]
+path = { stop = { lambda = [-2.0, 1.0] } }
+)";
+  const auto at_end = [&](const std::vector<std::string>& drives) {
+    std::string stages;
+    for (const std::string& one : drives)
+      stages += fmt::format("[[stage]]\nname = \"s{}\"\ndrives = [{}]\n", stages.size(), one);
+    const TracedDeck run(deck + stages);
+    expect_confirmed(run);
+    EXPECT_EQ(run.record().points.back().lambda, 1.0);
+    return run.record().points.back().monitors.at(0);
+  };
+  const double together = at_end({"\"load.0\", \"load.1\", \"load.2\""});
+  EXPECT_NEAR(at_end({"\"load.0\"", "\"load.1\"", "\"load.2\""}), together, 1e-9);
+  EXPECT_NEAR(at_end({"\"load.2\"", "\"load.1\"", "\"load.0\""}), together, 1e-9);
+}
+
 // Stopped anywhere and taken up again, to the last bit.
 TEST(Stages, GoOnFromACheckpointSlow) {
   for (const std::string& deck :
