@@ -222,7 +222,7 @@ Vector SlidingContact::transfer(const Vector& x, const ActiveSet& from, const Ac
   Vector moved = Vector::Zero(target.size());
   moved.head(target.nodes) = x.head(source.nodes);
   moved.tail(rest) = x.tail(rest);
-  for (std::size_t j = 0; j < to.size(); ++j)
+  for (std::size_t j = 0; j < to.contacts(); ++j)
     if (from[j] && to[j]) moved[*target.force(j)] = x[*source.force(j)];
   return moved;
 }

@@ -226,4 +226,27 @@ TEST(StraightLaws, HaveSensitivitiesAtTheirKinks) {
   EXPECT_NEAR(*limit.sensitivity[0].slope, bar(0.2) / EA, 1e-9);
 }
 
+// A moment turns the end of a cantilever against a spring whose law has kinks, until the end touches a ceiling: contact
+// at moving points and at nodes of a finer mesh agree.
+TEST(StraightLaws, OfARotationGoBesideMovingContact) {
+  const std::string deck = R"(
+title = "A turned end below a ceiling"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1e4, I = 1.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0] }
+support = { a = ["x", "z", "rotation"] }
+member.l = { from = "a", to = "b", theory = "euler-bernoulli", material = "m", section = "s", elements = 8 }
+load = [{ at = "b", moment = 2.0 }]
+monitor = [{ name = "turns", at = "b", component = "rotation" }]
+path = { step = 0.05, stop = { lambda = [-2.0, 1.0] } }
+spring = [{ at = "b", law = { direction = "rotation", displacement = [-1.0, -0.1, 0.0, 0.1, 1.0], force = [-4.0, -1.0, 0.0, 1.0, 1.9] } }]
+wall = [{ name = "ceiling", contact_surface = "axis", outline = { type = "half-plane", point = [0.0, 0.15], normal = [0.0, -1.0] } }]
+)";
+  const TracedDeck moving(deck), nodes(deck, {"contact.points=\"nodes\"", "member.l.elements=64"});
+  EXPECT_EQ(moving.record().points.back().lambda, 1.0);
+  EXPECT_EQ(events_of(moving, EventKind::contact_closes).size(), 1u);
+  EXPECT_NEAR(moving.record().points.back().monitors.at(0), nodes.record().points.back().monitors.at(0), 1e-4);
+  expect_confirmed(moving);
+}
+
 }  // namespace arcwall::loading_test
