@@ -94,9 +94,11 @@ void MemberExtreme::look_in(const MemberStretch& stretch, Found& extreme, Index 
   const auto is_beyond = [&](double value, double other) {
     return which_ == Which::greatest ? value > other * (1.0 + exceeds) : value < other * (1.0 - exceeds);
   };
-  const auto consider = [&](double value, std::size_t quantity, double xi, Found::Kind kind) {
+  const auto consider = [&](double signed_value, std::size_t quantity, double xi, Found::Kind kind) {
+    const double value = std::abs(signed_value);
     if (extreme.value && !is_beyond(value, *extreme.value)) return;
     extreme = {.value = value,
+               .sign = signed_value < 0.0 ? -1.0 : 1.0,
                .fraction = fraction_at(stretch, xi),
                .quantity = quantity,
                .element = element,
@@ -107,11 +109,11 @@ void MemberExtreme::look_in(const MemberStretch& stretch, Found& extreme, Index 
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     const auto f = [&](double xi) { return quantities_[i](stretch, xi); };
     const std::vector<double> turning = turns(f, from, to);
-    consider(std::abs(f(from)), i, from, from > 0.0 ? Found::Kind::end : Found::Kind::node);
-    for (const double xi : turning) consider(std::abs(f(xi)), i, xi, Found::Kind::inside);
+    consider(f(from), i, from, from > 0.0 ? Found::Kind::end : Found::Kind::node);
+    for (const double xi : turning) consider(f(xi), i, xi, Found::Kind::inside);
     if (which_ == Which::least)
       for (const double xi : zeros(f, from, to, turning)) consider(0.0, i, xi, Found::Kind::inside);
-    consider(std::abs(f(to)), i, to, to < 1.0 ? Found::Kind::end : Found::Kind::node);
+    consider(f(to), i, to, to < 1.0 ? Found::Kind::end : Found::Kind::node);
   }
 }
 
@@ -143,7 +145,7 @@ double MemberExtreme::again(const State& state, const Found& found) const {
   if (found.kind == Found::Kind::end) xi = (found.fraction - stretch.from) / (stretch.to - stretch.from);
   const SectionQuantity& quantity = quantities_[found.quantity];
   const bool is_zero = found.value == 0.0 && found.kind == Found::Kind::inside;
-  if (what_ == What::value) return is_zero ? 0.0 : std::abs(quantity(stretch, xi));
+  if (what_ == What::value) return is_zero ? 0.0 : found.sign * quantity(stretch, xi);
   if (found.kind == Found::Kind::inside) {
     const auto [from, to] = within_member(stretch);
     const auto f = [&](double at) { return quantity(stretch, at); };

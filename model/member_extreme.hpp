@@ -58,6 +58,7 @@ class MemberExtreme final : public Observable {
  private:
   struct Found {
     std::optional<double> value{};  // absolute
+    double sign = 1.0;              // of what it is the absolute value of
     double fraction = 0.0;
     std::size_t quantity = 0;
     Index element = 0;

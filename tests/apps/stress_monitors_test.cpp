@@ -192,4 +192,27 @@ path = { step = 0.1, stop = { lambda = [-1.0, 1.0] } }
   expect_in(said_of(watched), {"path.watch", "may turn where its place jumps"});
 }
 
+// The greatest moment is that at the clamp, and so are its derivatives, also where the moment is so small and the mesh
+// so fine that the steps of differences lead beyond zero.
+TEST(StressMonitors, HaveTheDerivativesOfTheSection) {
+  const TracedDeck run(R"(
+title = "A frame that is hardly bent"
+material.m = { E = 1.0, nu = 0.3 }
+section.s = { shape = "general", A = 1e4, I = 1.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0], c = [1.0, -0.7] }
+support = { a = ["x", "z"], c = ["x", "z", "rotation"] }
+member.l = { from = "a", to = "b", theory = "elastica", material = "m", section = "s", elements = 20 }
+member.r = { from = "b", to = "c", theory = "elastica", material = "m", section = "s", elements = 20 }
+load = [{ at = "b", force = [-13.0, -1.0] }]
+monitor = [{ name = "greatest", member = "r", component = "max-moment" }, { name = "clamp", at = "r:1", component = "moment" }]
+path = { step = 0.1, stop = { lambda = [-0.1, 0.3] } }
+)");
+  const State& state = run.last();
+  const auto of = [&](const std::string& name) { return run.model().quantity(name); };
+  const double sign = of("clamp")->value(state) < 0.0 ? -1.0 : 1.0;
+  EXPECT_NEAR(of("greatest")->value(state), sign * of("clamp")->value(state), 1e-12);
+  const Row greatest = of("greatest")->gradient(state), clamp = of("clamp")->gradient(state);
+  EXPECT_LE((greatest.dx - sign * clamp.dx).norm(), 1e-8 * clamp.dx.norm());
+}
+
 }  // namespace arcwall::stress_monitors_test
