@@ -47,15 +47,15 @@ QuadraticField Candidate::place_field(const Vec2& position, double lambda) const
 
 void Candidate::place(const State& state, double near, Gap& out) const {
   PointKinematics at;
-  point_->kinematics(state, at);
+  rubbing_point().kinematics(state, at);
   at_point(place_field(at.position, state.lambda), at, out);
-  if (const double round = obstacle_->round_length(); round > 0.0)
-    out.value += round * std::round((near - out.value) / round);
+  for (const double round : {obstacle_->round_length(), 2.0 * pi * obstacle_->half_height()})  // that of its direction
+    if (round > 0.0) out.value += round * std::round((near - out.value) / round);
 }
 
 Vec2 Candidate::tangent(const State& state) const {
-  const QuadraticField place = place_field(point_->position(state), state.lambda);
-  return {place.x, place.z};
+  const QuadraticField place = place_field(rubbing_point().position(state), state.lambda);
+  return Vec2(place.x, place.z).normalized();
 }
 
 double Candidate::gap_rate(const State& state, const Direction& direction) const {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "contact/contact_point.hpp"
 #include "contact/obstacle.hpp"
@@ -40,19 +41,28 @@ class Candidate {
   /// Gap and derivatives; only where faces_wall().
   void gap(const State& state, Gap& out) const;
 
-  /// The arc length of the touched place along the obstacle's tangent, which has the body to its left, and derivatives;
-  /// only where faces_wall(). Of a closed obstacle the round that is nearest to `near` [length].
+  /// The arc length along the obstacle's tangent, which has the body to its left, of the place nearest to where
+  /// friction acts, and its derivatives by that point's unknowns; only where faces_wall(). Of a closed obstacle the
+  /// round that is nearest to `near` [length].
   void place(const State& state, double near, Gap& out) const;
 
   /// The field of that arc length about a position that the obstacle faces.
   QuadraticField place_field(const Vec2& position, double lambda) const;
 
-  /// The unit tangent of the obstacle with the body to its left; only where the gap vanishes.
+  /// The unit tangent of the obstacle with the body to its left, where friction acts; only where the gap vanishes.
   Vec2 tangent(const State& state) const;
 
   /// The coefficient of Coulomb friction μ ≥ 0.
   double friction() const { return friction_; }
-  void set_friction(double coefficient) { friction_ = coefficient; }
+
+  /// `at`: the point at which friction acts, and whose place() counts; null: the tracked point.
+  void set_friction(double coefficient, std::unique_ptr<TrackedPoint> at = nullptr) {
+    friction_ = coefficient;
+    rubbing_point_ = std::move(at);
+  }
+
+  /// The point at which friction acts.
+  const TrackedPoint& rubbing_point() const { return rubbing_point_ ? *rubbing_point_ : *point_; }
 
   /// Rate of the gap along a direction; 0 where there is no surface.
   double gap_rate(const State& state, const Direction& direction) const;
@@ -66,7 +76,7 @@ class Candidate {
   Vec2 normal(const State& state) const { return obstacle_->normal(point_->position(state), state.lambda); }
 
  private:
-  std::unique_ptr<TrackedPoint> point_;
+  std::unique_ptr<TrackedPoint> point_, rubbing_point_{};
   std::shared_ptr<const Obstacle> obstacle_;
   ContactLabel label_;
   std::optional<Index> opposite_{};

@@ -16,15 +16,6 @@ namespace {
 // Guard of a point that faces no wall, or that two walls hold: as far as the structure is large.
 constexpr double out_of_reach = 1.0;
 
-// The value of an entry that the pattern has.
-double& entry(SparseMatrix& A, Index row, Index column) {
-  const SparseIndex* first = A.innerIndexPtr() + A.outerIndexPtr()[column];
-  const SparseIndex* last = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
-  const SparseIndex* at = std::lower_bound(first, last, row);
-  assert(at != last && *at == row);
-  return A.valuePtr()[at - A.innerIndexPtr()];
-}
-
 // How far a candidate's point is past a kink of its wall [length].
 class PastKink final : public Observable {
  public:
@@ -75,14 +66,6 @@ bool MultiplierContact::has_force(const ActiveSet& active_set, std::size_t j) co
   return active_set[j] != 0 && !(opposite && *opposite < static_cast<Index>(j));
 }
 
-// Calls `visit(j, k)` for each candidate j that has a force, the k-th of them.
-template <typename Visit>
-void MultiplierContact::for_each_force(const ActiveSet& active_set, const Visit& visit) const {
-  Index k = 0;
-  for (std::size_t j = 0; j < active_set.contacts(); ++j)
-    if (has_force(active_set, j)) visit(j, k++);
-}
-
 Index MultiplierContact::force_count(const ActiveSet& active_set) const {
   Index count = 0;
   for_each_force(active_set, [&](std::size_t, Index) { ++count; });
@@ -100,29 +83,27 @@ ActiveSet MultiplierContact::open_active_set() const {
   return active_set;
 }
 
+// Its unknown is number `row` of x.
+ConstraintForce MultiplierContact::contact_force(const State& state, std::size_t j, Index row, const Gap& gap) const {
+  const auto [c, r] = springs_[j];
+  return {.unknowns = candidates_[j].point().unknowns(),
+          .row = row,
+          .t = state.x[row] - r * gap.value,
+          .stiffness = r,
+          .compliance = c};
+}
+
 void MultiplierContact::residual(const State& state, Eigen::Ref<Vector> F) const {
   const State inner = inner_state(state);
   const Index n = inner.x.size();
   inner_.residual(inner, F.head(n));
   Gap gap;
   for_each_force(state.active_set, [&](std::size_t j, Index k) {
-    const auto& unknowns = candidates_[j].point().unknowns();
-    const double p = state.x[n + k];
     candidates_[j].gap(state, gap);
-    const double t = p - springs_[j].r * gap.value;
-    for (std::size_t i = 0; i < unknowns.size(); ++i) F[unknowns[i]] -= t * gap.gradient[static_cast<Index>(i)];
-    F[n + k] = -gap.value - springs_[j].c * p;
+    add_force(contact_force(state, j, n + k, gap), gap, F);
+    F[n + k] = -gap.value - springs_[j].c * state.x[n + k];
   });
-  for (const Friction& friction : frictions(state.active_set)) {
-    const Candidate& candidate = candidates_[friction.contact];
-    const auto& unknowns = candidate.point().unknowns();
-    const double T = state.x[friction.T], held = friction.held(state.x);
-    Gap place;
-    candidate.place(state, held, place);
-    for (std::size_t i = 0; i < unknowns.size(); ++i) F[unknowns[i]] -= T * place.gradient[static_cast<Index>(i)];
-    F[friction.T] = held - place.value;
-    if (friction.w) F[*friction.w] = T + slip_sense(friction.history.mode) * candidate.friction() * state.x[friction.p];
-  }
+  add_friction(state, F);
 }
 
 void MultiplierContact::linearize(const State& state, Linearization& out) const {
@@ -141,71 +122,10 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
   out.ground = inner.ground;
   Gap gap;
   for_each_force(state.active_set, [&](std::size_t j, Index k) {
-    const auto& unknowns = candidates_[j].point().unknowns();
-    const double p = state.x[n + k];
-    const auto [c, r] = springs_[j];
     candidates_[j].gap(state, gap);
-    const double t = p - r * gap.value;
-    out.F[n + k] = -gap.value - c * p;
-    out.F_lambda[n + k] = -gap.rate;
-    entry(out.K, n + k, n + k) = -c;
-    for (Index a = 0; a < static_cast<Index>(unknowns.size()); ++a) {
-      const Index column = unknowns[static_cast<std::size_t>(a)];
-      out.F[column] -= t * gap.gradient[a];
-      out.F_lambda[column] += r * gap.rate * gap.gradient[a] - t * gap.gradient_rate[a];
-      entry(out.K, n + k, column) = -gap.gradient[a];
-      for (Index b = 0; b < static_cast<Index>(unknowns.size()); ++b) {
-        const Index row = unknowns[static_cast<std::size_t>(b)];
-        const double stiffness = r * gap.gradient[b] * gap.gradient[a] - t * gap.hessian(b, a);
-        if (row < column || stiffness == 0.0) continue;
-        entry(out.K, row, column) += stiffness;
-        out.ground.push_back({.row = row, .column = column, .stiffness = stiffness});
-      }
-    }
+    add_force(contact_force(state, j, n + k, gap), gap, -gap.value - springs_[j].c * state.x[n + k], out);
   });
   if (has_friction()) add_friction(state, out);
-}
-
-// ∂F/∂x = [K B; C]: B has the held places w in the rows of σ, C the laws of slip.
-void MultiplierContact::add_friction(const State& state, Linearization& out) const {
-  const Index border = state.x.size() - out.K.cols();
-  out.B = Matrix::Zero(out.K.cols(), border);
-  out.C = LongRows::Zero(border, state.x.size());
-  out.border_rates = Vector::Zero(border);  // T truly holds
-  out.holding.clear();
-  out.slip_senses.resize(border);
-  for (const Friction& friction : frictions(state.active_set)) {
-    const Candidate& candidate = candidates_[friction.contact];
-    const auto& unknowns = candidate.point().unknowns();
-    const double T = state.x[friction.T], held = friction.held(state.x);
-    Gap place;
-    candidate.place(state, held, place);
-    out.F[friction.T] = held - place.value;
-    out.F_lambda[friction.T] = -place.rate;
-    entry(out.K, friction.T, friction.T) = 0.0;
-    for (Index a = 0; a < static_cast<Index>(unknowns.size()); ++a) {
-      const Index column = unknowns[static_cast<std::size_t>(a)];
-      out.F[column] -= T * place.gradient[a];
-      out.F_lambda[column] -= T * place.gradient_rate[a];
-      entry(out.K, friction.T, column) = -place.gradient[a];
-      for (Index b = 0; b < static_cast<Index>(unknowns.size()); ++b) {
-        const Index row = unknowns[static_cast<std::size_t>(b)];
-        const double stiffness = -T * place.hessian(b, a);
-        if (row < column || stiffness == 0.0) continue;
-        entry(out.K, row, column) += stiffness;
-        out.ground.push_back({.row = row, .column = column, .stiffness = stiffness});
-      }
-    }
-    if (!friction.w) continue;
-    const Index k = *friction.w - out.K.cols();
-    const double of_p = slip_sense(friction.history.mode) * candidate.friction();
-    out.F[*friction.w] = T + of_p * state.x[friction.p];
-    out.B(friction.T, k) = 1.0;
-    out.C(k, friction.T) = 1.0;
-    out.C(k, friction.p) = of_p;
-    out.holding.push_back(friction.T);
-    out.slip_senses[k] = slip_sense(friction.history.mode);
-  }
 }
 
 void MultiplierContact::lay_out(const State& state, Linearization& out) const {
@@ -215,7 +135,7 @@ void MultiplierContact::lay_out(const State& state, Linearization& out) const {
   });
   const Index n = inner_.size({});
   for (const Friction& friction : frictions(state.active_set))
-    for (const Index unknown : candidates_[friction.contact].point().unknowns())
+    for (const Index unknown : candidates_[friction.contact].rubbing_point().unknowns())
       entries.push_back({.row = friction.T - n, .column = unknown});
   out.K = with_rows_behind(out.inner->K, entries, multiplier_count(state.active_set));
   out.translation_free = out.inner->translation_free;
@@ -356,121 +276,6 @@ Vector MultiplierContact::transfer(const Vector& x, const ActiveSet& from, const
   return moved;
 }
 
-const FrictionLayout& MultiplierContact::history(const ActiveSet& active_set) const {
-  const auto* layout = dynamic_cast<const FrictionLayout*>(active_set.layout().get());
-  return layout != nullptr ? *layout : *rest_friction_;
-}
-
-std::vector<MultiplierContact::Friction> MultiplierContact::frictions(const ActiveSet& active_set) const {
-  std::vector<Friction> found;
-  if (!has_friction()) return found;
-  const FrictionLayout& layout = history(active_set);
-  const Index n = inner_.size({});
-  for_each_force(active_set, [&](std::size_t j, Index k) {
-    if (candidates_[j].friction() > 0.0) found.push_back({.contact = j, .p = n + k, .history = layout[j]});
-  });
-  Index T = n + force_count(active_set), w = T + static_cast<Index>(found.size());
-  for (Friction& friction : found) {
-    friction.T = T++;
-    if (slips(friction.history.mode)) friction.w = w++;
-  }
-  return found;
-}
-
-ContactMode MultiplierContact::mode(const ActiveSet& active_set, Index j) const {
-  if (!active_set[static_cast<std::size_t>(j)]) return ContactMode::open;
-  return is_rough(j) ? history(active_set)[static_cast<std::size_t>(j)].mode : ContactMode::closed;
-}
-
-std::vector<Index> MultiplierContact::slipping(const ActiveSet& active_set) const {
-  std::vector<Index> contacts;
-  for (const Friction& friction : frictions(active_set))
-    if (friction.w) contacts.push_back(static_cast<Index>(friction.contact));
-  return contacts;
-}
-
-std::vector<Index> MultiplierContact::sticking(const ActiveSet& active_set) const {
-  std::vector<Index> contacts;
-  for (const Friction& friction : frictions(active_set))
-    if (!friction.w) contacts.push_back(static_cast<Index>(friction.contact));
-  return contacts;
-}
-
-std::optional<Index> MultiplierContact::friction_index(const ActiveSet& active_set, Index j) const {
-  for (const Friction& friction : frictions(active_set))
-    if (static_cast<Index>(friction.contact) == j) return friction.T;
-  return std::nullopt;
-}
-
-double MultiplierContact::friction_force(const State& state, Index j) const {
-  const auto T = friction_index(state.active_set, j);
-  return T ? state.x[*T] : 0.0;
-}
-
-double MultiplierContact::slip_rate(const State& state, const Direction& direction, Index j) const {
-  for (const Friction& friction : frictions(state.active_set))
-    if (static_cast<Index>(friction.contact) == j && friction.w)
-      return slip_sense(friction.history.mode) * direction.dx[*friction.w] / scales_.length;
-  return 0.0;
-}
-
-double MultiplierContact::slip(const State& state, Index j) const {
-  for (const Friction& friction : frictions(state.active_set))
-    if (static_cast<Index>(friction.contact) == j) return friction.held(state.x) - friction.history.touched;
-  return 0.0;
-}
-
-Row MultiplierContact::slip_gradient(const State& state, Index j) const {
-  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-  for (const Friction& friction : frictions(state.active_set))
-    if (static_cast<Index>(friction.contact) == j && friction.w) row.dx[*friction.w] = 1.0;
-  return row;
-}
-
-std::optional<ModeOfContact> MultiplierContact::beyond_friction_bound(const ActiveSet& active_set, Index guard) const {
-  const Index bound = guard - contact_count();
-  if (bound < 0 || !has_friction()) return std::nullopt;
-  const std::vector<Index> contacts = sticking(active_set);
-  if (bound >= 2 * static_cast<Index>(contacts.size())) return std::nullopt;
-  return ModeOfContact{.contact = contacts[static_cast<std::size_t>(bound / 2)],
-                       .mode = bound % 2 == 0 ? ContactMode::slips_backward : ContactMode::slips_forward};
-}
-
-State MultiplierContact::with_modes(const State& state, std::span<const ModeOfContact> modes) const {
-  std::vector<FrictionLayout::Contact> contacts = history(state.active_set).contacts();
-  std::vector<std::uint8_t> closed(state.active_set.begin(), state.active_set.end());
-  for (std::size_t j = 0; j < contacts.size(); ++j)
-    if (!closed[j]) contacts[j] = {};
-  const std::vector<Friction> before = frictions(state.active_set);
-  std::vector<double> places(contacts.size(), 0.0);
-  for (const auto& [contact, mode] : modes) {
-    const auto j = static_cast<std::size_t>(contact);
-    FrictionLayout::Contact& history = contacts[j];
-    closed[j] = mode == ContactMode::open ? 0 : 1;
-    if (mode == ContactMode::open || !is_rough(contact)) {
-      history = {};
-      continue;
-    }
-    const auto known = std::find_if(before.begin(), before.end(), [&](const Friction& f) { return f.contact == j; });
-    Gap place;
-    candidates_[j].place(state, known != before.end() ? known->held(state.x) : 0.0, place);
-    places[j] = place.value;
-    if (history.mode == ContactMode::open) history.touched = place.value;
-    if (mode == ContactMode::sticks && history.mode != ContactMode::sticks) history.anchor = place.value;
-    history.mode = mode;
-  }
-  ActiveSet changed(closed.size(), 0, std::make_shared<const FrictionLayout>(std::move(contacts)));
-  for (std::size_t j = 0; j < closed.size(); ++j) changed[j] = closed[j];
-  State next{.x = transfer(state.x, state.active_set, changed), .lambda = state.lambda, .active_set = changed};
-  for (const Friction& friction : frictions(changed)) {
-    const bool slipped = std::any_of(before.begin(), before.end(), [&](const Friction& other) {
-      return other.contact == friction.contact && other.w.has_value();
-    });
-    if (friction.w && !slipped) next.x[*friction.w] = places[friction.contact];
-  }
-  return next;
-}
-
 std::string MultiplierContact::watched_place(const State& state, Index j) const {
   const auto bound = beyond_friction_bound(state.active_set, j);
   return words_of(contact(state, bound ? bound->contact : j).label);
@@ -607,7 +412,7 @@ struct ForceAlong {
 
 }  // namespace
 
-// Of one contact t ∇g + T ∇σ, at the point that touches.
+// Of one contact t ∇g at the point that touches, and T ∇σ at that which friction acts on.
 WallAction MultiplierContact::wall_action(const State& state, const ContactsOfWall& of, const Vec2& about) const {
   WallAction action(state.x.size());
   const Index n = inner_.size({});
@@ -618,12 +423,11 @@ WallAction MultiplierContact::wall_action(const State& state, const ContactsOfWa
     const bool of_opposite = contact.opposite() && p < 0.0;
     const ContactLabel& label = (of_opposite ? candidate(*contact.opposite()) : contact).label();
     if (label.wall != of.wall || !of.includes(label.member, label.fraction)) return;
-    PointKinematics at;
-    contact.point().kinematics(state, at);
-    const auto& unknowns = contact.point().unknowns();
-    // `r`: by which t falls with the field's own value; `number` of t among the unknowns.
-    const auto add = [&](const QuadraticField& f, double t, double stiffness, Index number) {
+    // `stiffness`: by which t falls with the field's own value; `number` of t among the unknowns.
+    const auto add = [&](const TrackedPoint& point, const PointKinematics& at, const QuadraticField& f, double t,
+                         double stiffness, Index number) {
       const ForceAlong force{.f = f, .t = t, .arm = at.position - about};
+      const std::vector<Index>& unknowns = point.unknowns();
       const Vec2 along(f.x, f.z);
       force.add_value(action);
       force.add_rate(1.0, Vec2::Zero(), Vec2::Zero(), action, [&](Row& row) -> double& { return row.dx[number]; });
@@ -635,11 +439,16 @@ WallAction MultiplierContact::wall_action(const State& state, const ContactsOfWa
       force.add_rate(-stiffness * (f.rate + along.dot(at.rate)), at.rate, Vec2(f.x_rate, f.z_rate), action,
                      [](Row& row) -> double& { return row.dlambda; });
     };
+    PointKinematics at;
+    contact.point().kinematics(state, at);
     const QuadraticField g = contact.obstacle().gap(at.position, state.lambda);
-    add(g, p - r * g.value, r, n + k);
-    for (const Friction& friction : all)
-      if (friction.contact == j)
-        add(contact.place_field(at.position, state.lambda), state.x[friction.T], 0.0, friction.T);
+    add(contact.point(), at, g, p - r * g.value, r, n + k);
+    for (const Friction& friction : all) {
+      if (friction.contact != j) continue;
+      contact.rubbing_point().kinematics(state, at);
+      add(contact.rubbing_point(), at, contact.place_field(at.position, state.lambda), state.x[friction.T], 0.0,
+          friction.T);
+    }
   });
   return action;
 }

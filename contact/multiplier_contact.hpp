@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "contact/candidate.hpp"
+#include "contact/constraint_force.hpp"
 #include "contact/contact_point.hpp"
 #include "contact/contact_scales.hpp"
 #include "contact/friction_layout.hpp"
@@ -81,6 +82,9 @@ class MultiplierContact final : public System, public ContactQuery {
 
   bool has_friction() const override { return rest_friction_ != nullptr; }
   bool is_rough(Index j) const override { return candidate(j).friction() > 0.0; }
+  bool share_point(Index j, Index k) const override {
+    return is_rough(j) && is_rough(k) && candidate(j).point().unknowns() == candidate(k).point().unknowns();
+  }
   ContactMode mode(const ActiveSet& active_set, Index j) const override;
   std::vector<Index> slipping(const ActiveSet& active_set) const override;
   double slip_rate(const State& state, const Direction& direction, Index j) const override;
@@ -119,7 +123,10 @@ class MultiplierContact final : public System, public ContactQuery {
   std::vector<Friction> frictions(const ActiveSet& active_set) const;
   const FrictionLayout& history(const ActiveSet& active_set) const;
   Index force_count(const ActiveSet& active_set) const;
+  void add_friction(const State& state, Eigen::Ref<Vector> F) const;
   void add_friction(const State& state, Linearization& out) const;
+  ConstraintForce friction_force(const State& state, const Friction& friction) const;
+  double law_of_slip(const State& state, const Friction& friction) const;
 
   State inner_state(const State& state) const {
     return {.x = state.x.head(inner_.size({})), .lambda = state.lambda, .active_set = {}};
@@ -131,8 +138,14 @@ class MultiplierContact final : public System, public ContactQuery {
   const Springs& springs_at(Index j) const { return springs_[static_cast<std::size_t>(j)]; }
   bool has_opposite(Index j) const { return candidate(j).opposite().has_value(); }
   bool has_force(const ActiveSet& active_set, std::size_t j) const;
+  // Calls `visit(j, k)` for each candidate j that has a force, the k-th of them.
   template <typename Visit>
-  void for_each_force(const ActiveSet& active_set, const Visit& visit) const;
+  void for_each_force(const ActiveSet& active_set, const Visit& visit) const {
+    Index k = 0;
+    for (std::size_t j = 0; j < active_set.contacts(); ++j)
+      if (has_force(active_set, j)) visit(j, k++);
+  }
+  ConstraintForce contact_force(const State& state, std::size_t j, Index row, const Gap& gap) const;
   double open_guard(Index j, const State& state) const;
   ContactPoint told(const State& state, std::size_t j, double force) const;
   void lay_out(const State& state, Linearization& out) const;

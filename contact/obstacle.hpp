@@ -87,8 +87,8 @@ class Obstacle {
   virtual double along(const Vec2& position, double lambda) const = 0;
 
   /// The arc length along the surface of the place that a position faces [length], in the direction in which the
-  /// surface runs: where the gap vanishes its gradient is the unit tangent, times the length of the outline over that
-  /// of the surface where that is kept off an outline. Only where faces().
+  /// surface runs: where the gap vanishes its gradient is the unit tangent. Off an outline by half_height() it jumps by
+  /// 2π times that somewhere. Only where faces().
   virtual QuadraticField arc_length(const Vec2& position, double lambda) const = 0;
 
   /// The length of a closed surface, after which arc_length() begins again; 0 of others [length].

@@ -144,19 +144,26 @@ class OutlineObstacle final : public Obstacle {
 
   double along(const Vec2& position, double) const override { return outline_->foot(position).along; }
 
-  // With w = 1/(1 − κ d) for the curvature κ of the outline: ∇σ = w t, ∇w = w² (d ∇κ + κ n), κ w the curvature of
-  // the parallel curve.
+  // σ − h φ, with σ the arc length and φ the direction of the outline, h half the height: the length of the parallel
+  // curve. With w = 1/(1 − κ d) for the curvature κ of the outline: ∇σ = w t, ∇w = w² (d ∇κ + κ n), κ w the curvature
+  // of the curve through the position.
   QuadraticField arc_length(const Vec2& position, double) const override {
     const OutlineFoot at = outline_->foot(position);
     const Vec2 n = perp(at.tangent), t = at.tangent;
     const double w = 1.0 + at.curvature * at.distance;
     const Vec2 w_slope = at.distance * at.curvature_slope * t + w * at.curvature * n;
-    return {.value = outline_->length_to(at.along),
-            .x = w * t.x(),
-            .z = w * t.y(),
-            .xx = t.x() * w_slope.x() + w * at.curvature * n.x() * t.x(),
-            .xz = t.x() * w_slope.y() + w * at.curvature * n.x() * t.y(),
-            .zz = t.y() * w_slope.y() + w * at.curvature * n.y() * t.y()};
+    QuadraticField length{.value = outline_->length_to(at.along),
+                          .x = w * t.x(),
+                          .z = w * t.y(),
+                          .xx = t.x() * w_slope.x() + w * at.curvature * n.x() * t.x(),
+                          .xz = t.x() * w_slope.y() + w * at.curvature * n.x() * t.y(),
+                          .zz = t.y() * w_slope.y() + w * at.curvature * n.y() * t.y()};
+    if (half_height_ == 0.0) return length;
+    const QuadraticField turned = direction(position, 0.0);
+    for (double QuadraticField::*part : {&QuadraticField::value, &QuadraticField::x, &QuadraticField::z,
+                                         &QuadraticField::xx, &QuadraticField::xz, &QuadraticField::zz})
+      length.*part -= half_height_ * turned.*part;
+    return length;
   }
   double round_length() const override {
     const double period = outline_->period();

@@ -66,6 +66,9 @@ class System : public UnilateralSystem {
   /// Returns true if contact j has friction where it is closed.
   virtual bool is_rough(Index /*j*/) const { return false; }
 
+  /// Returns true if two contacts with friction are of one point of the structure.
+  virtual bool share_point(Index /*j*/, Index /*k*/) const { return false; }
+
   /// Returns what a contact does on an active set.
   virtual ContactMode mode(const ActiveSet& active_set, Index j) const {
     return active_set[static_cast<std::size_t>(j)] ? ContactMode::closed : ContactMode::open;

@@ -60,8 +60,8 @@ std::vector<std::shared_ptr<const Obstacle>> all_walls() {
   const auto profile = [](std::unique_ptr<Profile> made, Side side) {
     return obstacle(std::shared_ptr<const Profile>(std::move(made)), side);
   };
-  const auto outline = [](std::unique_ptr<Outline> made) {
-    return obstacle(std::shared_ptr<const Outline>(std::move(made)));
+  const auto outline = [](std::unique_ptr<Outline> made, double half_height = 0.0) {
+    return obstacle(std::shared_ptr<const Outline>(std::move(made)), half_height);
   };
   return {profile(line_profile(0.1, 0.3), Side::below),
           profile(parabola_profile({0.3, 0.1}, 0.7), Side::below),
@@ -71,7 +71,11 @@ std::vector<std::shared_ptr<const Obstacle>> all_walls() {
           outline(circle_outline({0.2, -1.0}, 1.1, Keep::outside)),
           outline(ellipse_outline({0.2, -1.0}, {1.5, 0.8}, 0.3, Keep::outside)),
           outline(curve_outline({{-2.0, 0.0}, {-0.5, 0.1}, {0.5, -0.1}, {2.0, 0.0}})),
-          outline(polyline_outline({{-2.0, 0.0}, {0.1, 0.2}, {2.0, -0.5}}, 0.5))};
+          outline(polyline_outline({{-2.0, 0.0}, {0.1, 0.2}, {2.0, -0.5}}, 0.5)),
+          outline(half_plane_outline({0.0, 0.0}, {-0.5, 1.0}), 0.1),
+          outline(circle_outline({0.2, -1.0}, 1.0, Keep::outside), 0.1),
+          outline(ellipse_outline({0.2, -1.0}, {1.4, 0.7}, 0.3, Keep::outside), 0.1),
+          outline(curve_outline({{-2.0, -0.1}, {-0.5, 0.0}, {0.5, -0.2}, {2.0, -0.1}}), 0.1)};
 }
 
 const Springs springs;
@@ -128,6 +132,89 @@ TEST(NodeFriction, ASlipIsAColumnThatDiffersFromItsRow) {
   EXPECT_EQ(now.C(0, 2), 0.4);
   EXPECT_EQ(now.C(0, 3), 1.0);
   EXPECT_EQ(contact.multiplier_count(near_wall(contact, ContactMode::slips_forward).active_set), 2);
+}
+
+namespace {
+
+// With a rotation beside the two displacements.
+class TurningSprings final : public Equations {
+ public:
+  Index size(const ActiveSet&) const override { return 3; }
+  void residual(const State& state, Eigen::Ref<Vector> F) const override { F = state.x; }
+  void linearize(const State& state, Linearization& out) const override {
+    out.F = state.x;
+    out.F_lambda = Vector::Zero(3);
+    out.K.resize(3, 3);
+    out.K.setZero();
+    for (Index column = 0; column < 3; ++column)
+      for (Index row = column; row < 3; ++row) out.K.insert(row, column) = row == column ? 1.0 : 0.0;
+    out.K.makeCompressed();
+    out.pattern_of = state.active_set;
+  }
+  double energy(const State& state) const override { return 0.5 * state.x.squaredNorm(); }
+};
+
+// A face of the node, below its axis.
+class Face final : public TrackedPoint {
+ public:
+  static constexpr double below = 0.1;
+  const std::vector<Index>& unknowns() const override { return unknowns_; }
+  Vec2 position(const State& state) const override {
+    return {state.x[0] + below * std::sin(state.x[2]), state.x[1] - below * std::cos(state.x[2])};
+  }
+  PointMotion motion(const State& state, const Direction& direction) const override {
+    PointKinematics at;
+    kinematics(state, at);
+    return {.position = at.position, .velocity = at.jacobian * direction.dx.head<3>()};
+  }
+  void kinematics(const State& state, PointKinematics& out) const override {
+    const double s = std::sin(state.x[2]), c = std::cos(state.x[2]);
+    out.position = position(state);
+    out.jacobian = Matrix::Zero(2, 3);
+    out.jacobian(0, 0) = out.jacobian(1, 1) = 1.0;
+    out.jacobian(0, 2) = below * c;
+    out.jacobian(1, 2) = below * s;
+    out.curvature = {Matrix::Zero(3, 3), Matrix::Zero(3, 3)};
+    out.curvature[0](2, 2) = -below * s;
+    out.curvature[1](2, 2) = below * c;
+    out.rate.setZero();
+    out.jacobian_rate = Matrix::Zero(2, 3);
+  }
+
+ private:
+  std::vector<Index> unknowns_{0, 1, 2};
+};
+
+const TurningSprings turning_springs;
+
+MultiplierContact face_on_floor(std::unique_ptr<TrackedPoint> rubs) {
+  std::vector<Candidate> candidates;
+  candidates.emplace_back(std::make_unique<Face>(),
+                          obstacle(std::shared_ptr<const Profile>(line_profile(-0.1, 0.3)), Side::below),
+                          ContactLabel{.wall = "wall", .member = "node"});
+  candidates.front().set_friction(0.4, std::move(rubs));
+  return {turning_springs, std::move(candidates), {}};
+}
+
+// The row of the place, by the rotation.
+double lever(const MultiplierContact& contact) {
+  const State open{.x = Vector::Zero(3), .lambda = 0.0, .active_set = contact.open_active_set()};
+  const ModeOfContact sticks{.contact = 0, .mode = ContactMode::sticks};
+  State state = contact.with_modes(open, std::span(&sticks, 1));
+  state.x << 0.03, 0.02, 0.2, 0.7, -0.3;
+  EXPECT_LE(check_derivatives(contact, state).worst(), 1e-9);
+  Linearization now;
+  contact.linearize(state, now);
+  return now.K.coeff(4, 2);
+}
+
+}  // namespace
+
+// On the face the place moves by the lever as the node turns, seen along the wall; on the axis it does not.
+TEST(NodeFriction, OnTheAxisFrictionHasNoLever) {
+  const double slope = std::atan(0.3);
+  EXPECT_NEAR(lever(face_on_floor(nullptr)), -Face::below * std::cos(slope - 0.2), 1e-12);
+  EXPECT_EQ(lever(face_on_floor(std::make_unique<Node>())), 0.0);
 }
 
 }  // namespace arcwall::node_friction_test
