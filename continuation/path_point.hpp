@@ -45,6 +45,7 @@ enum class EventKind {
   contact_limit_point,
   turning_point,   ///< of a monitor
   value_crossing,  ///< a monitor or λ passes a value
+  reversal,        ///< λ turns since the deck says so
   branch_point,
   user,  ///< of a detector that the program added
 };

@@ -6,6 +6,9 @@ namespace arcwall {
 /// Distance below which points of a path coincide [path metric].
 inline constexpr double coincidence_tolerance = 1e-8;
 
+/// Cosine above which two directions in which the structure moves are one.
+inline constexpr double same_way = 1.0 - 1e-6;
+
 /// Penetration that is accepted between contacts [scale of guards].
 inline constexpr double penetration_tolerance = 1e-11;
 

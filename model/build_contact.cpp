@@ -81,7 +81,7 @@ bool moves_along(const Candidate& candidate, const State& rest) {
   constexpr double least = 1e-9;  // of the motion
   if (!candidate.faces_wall(rest)) return true;
   PointKinematics at;
-  candidate.point().kinematics(rest, at);
+  candidate.rubbing_point().kinematics(rest, at);
   const Eigen::MatrixXd motions = at.jacobian;
   return motions.cols() >= 2 && Eigen::JacobiSVD<Eigen::MatrixXd>(motions).singularValues()[1] > least;
 }
@@ -421,7 +421,9 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
             held.push_back(std::move(candidate));
             continue;
           }
-          candidate.set_friction(friction_of(deck, wall, mesh.name));
+          const bool on_axis = deck.contact.friction_at == deck::FrictionAt::axis && offset != 0.0;
+          candidate.set_friction(friction_of(deck, wall, mesh.name, section.fraction),
+                                 on_axis ? std::make_unique<MemberPoint>(structure, section, 0.0) : nullptr);
           if (candidate.friction() > 0.0 && !moves_along(candidate, rest)) {
             if (moves_with_lambda(candidate, rest))
               problems.add(

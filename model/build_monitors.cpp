@@ -53,7 +53,10 @@ deck::Dimension dimension_of(deck::Component component) {
     case deck::Component::rotation:
     case deck::Component::thickness:
     case deck::Component::utilisation:
+    case deck::Component::friction_use:
       return deck::unit::none;
+    case deck::Component::dissipation:
+      return deck::unit::energy;
     case deck::Component::reaction_x:
     case deck::Component::reaction_z:
     case deck::Component::axial_force:
@@ -112,7 +115,9 @@ MonitorColumn column_of(std::string name, deck::Component component, const deck:
   const deck::Dimension dimension = dimension_of(component);
   std::string unit = unit_text(dimension, deck.units);
   if (component == deck::Component::rotation) unit = "rad";
-  if (component == deck::Component::thickness || component == deck::Component::utilisation) unit = "-";
+  if (component == deck::Component::thickness || component == deck::Component::utilisation ||
+      component == deck::Component::friction_use)
+    unit = "-";
   return {.name = std::move(name),
           .unit = std::move(unit),
           .component = component,
@@ -213,13 +218,14 @@ std::shared_ptr<const Observable> wall_force(const deck::Deck& deck, const Measu
                                              std::string member, std::optional<double> end) {
   const deck::Wall& wall = *deck::find(deck.walls, monitor.wall);
   if (from.contacts == nullptr) return std::make_shared<ParameterValue>();
-  if (monitor.component == deck::Component::friction_force || monitor.component == deck::Component::slip) {
+  if (deck::is_of_friction(monitor.component)) {
     const auto* const at_nodes = dynamic_cast<const MultiplierContact*>(from.contacts);
     if (at_nodes == nullptr) return std::make_shared<ParameterValue>();
-    ContactsOfWall of{.wall = wall.name, .member = std::move(member), .fraction = end};
-    const bool force = monitor.component == deck::Component::friction_force;
-    return std::make_shared<FrictionAtWall>(*at_nodes, std::move(of),
-                                            force ? FrictionAtWall::What::force : FrictionAtWall::What::slip);
+    const FrictionAtWall::What what = monitor.component == deck::Component::friction_force ? FrictionAtWall::What::force
+                                      : monitor.component == deck::Component::slip         ? FrictionAtWall::What::slip
+                                                                                   : FrictionAtWall::What::greatest_use;
+    return std::make_shared<FrictionAtWall>(
+        *at_nodes, ContactsOfWall{.wall = wall.name, .member = std::move(member), .fraction = end}, what);
   }
   const WallForce::What what = monitor.component == deck::Component::force_x   ? WallForce::What::x
                                : monitor.component == deck::Component::force_z ? WallForce::What::z
@@ -443,6 +449,11 @@ std::shared_ptr<const Observable> shown_by(const deck::Deck& deck, const Measure
                                            DeckProblems& problems) {
   if (is_extreme(monitor.component)) return greatest(deck, from, monitor, OfGreatest::value);
   if (monitor.component == deck::Component::mean_pressure) return mean(deck, from, monitor);
+  if (monitor.component == deck::Component::dissipation) {
+    const auto* const at_nodes = dynamic_cast<const MultiplierContact*>(from.contacts);
+    if (at_nodes == nullptr) return std::make_shared<ParameterValue>();  // the deck has other problems
+    return std::make_shared<FrictionPower>(*at_nodes, monitor.wall);
+  }
   switch (monitor.of()) {
     case deck::Monitored::wall:
       return on_wall(deck, from, monitor, problems);
@@ -537,6 +548,8 @@ Watch::Kind kind_of(const MonitorColumn& column, const deck::Deck& deck) {
       return of_wall ? Watch::Kind::contact_force : Watch::Kind::inner_force;
     }
     case deck::Component::friction_force:
+    case deck::Component::friction_use:
+    case deck::Component::dissipation:
       return Watch::Kind::contact_force;
     case deck::Component::reaction_x:
     case deck::Component::reaction_z:

@@ -90,6 +90,11 @@ TraceOptions trace_options(const deck::Deck& deck, const Measured& from, const s
   enum class At { output, stop, event };
   const auto mark = [&](const std::string& name, double value, At at) {
     const MonitorColumn* const column = deck::find(monitors, name);
+    if (column != nullptr &&
+        (column->component == deck::Component::dissipation || column->component == deck::Component::friction_use))
+      return problems.add(path.position, "path",
+                          "no value of \"" + name + "\" can be solved for: it is read off points",
+                          "name λ or another monitor");
     if (column != nullptr || name == "lambda")
       options.target_values.push_back(
           {.quantity = column != nullptr ? column->quantity : std::make_shared<ParameterValue>(),

@@ -131,36 +131,36 @@ void check_friction(const deck::Deck& deck, const Structure& structure, const st
     problems.add({}, "contact.points", "friction is known for contact at nodes and at free ends alone",
                  "write points = \"nodes\", or leave it out");
   if (deck.contact.method != ContactLaw::Method::rigid)
-    problems.add({}, "contact.method", "springs in place of walls have no friction", "write method = \"multiplier\"");
+    problems.add({}, "contact.method", "springs in place of walls have no friction",
+                 "contact.method = \"multiplier\" has");
   if (wants_increments(deck))
     problems.add(deck.path.position, "path.method", "load increments without iteration know no friction",
                  "use \"spherical\"");
   if (std::any_of(candidates.begin(), candidates.end(),
                   [&](const Candidate& candidate) { return rough(candidate) && candidate.opposite(); }))
-    problems.add({}, "friction", "what two walls hold between them without a gap has no known friction",
+    problems.add({}, "friction", "what two stops press together without a gap has no known friction",
                  "leave a clearance, or leave out the friction of these walls");
+  const bool on_axis = deck.contact.friction_at == deck::FrictionAt::axis;
   const auto on_faces = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
-    return rough(candidate) && candidate.obstacle().half_height() > 0.0;
+    const Obstacle& wall = candidate.obstacle();
+    const bool on_curved_profile = &candidate.rubbing_point() != &candidate.point() && !wall.knots().empty();
+    return rough(candidate) && (on_axis ? on_curved_profile : wall.half_height() > 0.0);
   });
   if (on_faces != candidates.end())
     problems.add(deck::find(deck.walls, on_faces->label().wall)->position, "wall.friction",
-                 "friction on faces that roll on an outline is not known",
-                 "write contact_surface = \"axis\", or use a profile");
+                 on_axis ? "friction on the axis beside a curved profile is not known"
+                         : "friction on faces that roll on an outline is not known",
+                 on_axis ? "use an outline, or leave out contact.friction_at"
+                         : "write contact.friction_at = \"axis\" or contact_surface = \"axis\", or use a profile");
+  const std::string by_history = "events behind the first slip depend on the way that led there";
   if (deck.curve)
-    problems.add(
-        {}, "curve",
-        "events of contacts with friction depend on the way that led there, which a curve of events does not know",
-        "leave out [curve]: a sweep over the same key runs a path for each value");
+    problems.add({}, "curve", by_history, "leave out [curve]: a sweep over the same key runs a path for each value");
   if (!deck.path.sensitivity.empty())
-    problems.add(deck.path.position, "path.sensitivity",
-                 "events of contacts with friction depend on the way that led there, whose derivative is not known",
-                 "leave it out, or sweep over the key");
+    problems.add(deck.path.position, "path.sensitivity", by_history, "leave it out, or sweep over the key");
   if (deck.path.search || !deck.path.search_at.empty())
-    problems.add(deck.path.position, "path.search",
-                 "with friction an equilibrium beside the path has no history, so it says nothing", "leave it out");
+    problems.add(deck.path.position, "path.search", by_history, "leave it out");
   if (deck.path.branches == BranchPolicy::jump)
-    problems.add(deck.path.position, "path.branches",
-                 "where a structure with friction comes to rest after a jump depends on its motion",
+    problems.add(deck.path.position, "path.branches", "it jumps; where it comes to rest depends on the motion",
                  "use \"most-stable\", which follows the path");
   if (deck.path.branches == BranchPolicy::all)
     problems.add(deck.path.position, "path.branches", "friction makes every path one of its own history",
@@ -184,6 +184,9 @@ void check_watched(const deck::Deck& deck, DeckProblems& problems) {
   for (const std::string& name : deck.path.watch) {
     const deck::Monitor& monitor = *deck::find(deck.monitors, name);
     const bool pressure = is_pressure(monitor.component);
+    if (monitor.component == deck::Component::friction_use || monitor.component == deck::Component::dissipation)
+      problems.add(deck.path.position, "path.watch", "\"" + name + "\" has no turning points that are solved for",
+                   "watch the friction-force of the wall");
     if (is_extreme(monitor.component))
       problems.add(deck.path.position, "path.watch",
                    "\"" + name + "\" is what is greatest or least along a member, which may turn where its place jumps",

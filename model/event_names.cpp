@@ -22,6 +22,7 @@ constexpr std::array event_kinds{EventKind::start,
                                  EventKind::contact_limit_point,
                                  EventKind::turning_point,
                                  EventKind::value_crossing,
+                                 EventKind::reversal,
                                  EventKind::branch_point,
                                  EventKind::user};
 
@@ -87,6 +88,8 @@ std::string_view to_text(EventKind kind) {
       return "turning-point";
     case EventKind::value_crossing:
       return "value-crossing";
+    case EventKind::reversal:
+      return "reversal";
     case EventKind::branch_point:
       return "branch-point";
     case EventKind::user:
@@ -210,6 +213,7 @@ bool changes_contact(EventKind kind) {
     case EventKind::contact_limit_point:
     case EventKind::turning_point:
     case EventKind::value_crossing:
+    case EventKind::reversal:
     case EventKind::branch_point:
     case EventKind::user:
       return false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <utility>
 
 #include "contact/multiplier_contact.hpp"
@@ -7,49 +8,44 @@
 
 namespace arcwall {
 
-/// The sum of the friction forces of a wall on the structure, on a member or on a place of it, along the wall's tangent
-/// with the structure to its left [force]; or how far such a place has slipped since it touched [length].
+/// What friction does at the contacts of a wall, of a member on it or of a place of that.
 class FrictionAtWall final : public Observable {
  public:
-  enum class What { force, slip };
+  enum class What {
+    force,  ///< sum of the forces on the structure along the wall's tangent, with the structure to its left [force]
+    slip,   ///< how far such a place has slipped since it touched [length]
+    greatest_use  ///< the greatest |T|/(μ p); not a number where no contact is closed [-]
+  };
 
   /// `contacts` must outlive this.
   FrictionAtWall(const MultiplierContact& contacts, ContactsOfWall of, What what)
       : contacts_(contacts), of_(std::move(of)), what_(what) {}
 
-  double value(const State& state) const override {
-    double sum = 0.0;
-    for_each(state, [&](Index j) {
-      sum += what_ == What::force ? contacts_.friction_force(state, j) : contacts_.slip(state, j);
-    });
-    return sum;
-  }
-
-  Row gradient(const State& state) const override {
-    Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-    for_each(state, [&](Index j) {
-      if (what_ == What::force)
-        row.dx[*contacts_.friction_index(state.active_set, j)] = 1.0;
-      else
-        row.dx += contacts_.slip_gradient(state, j).dx;
-    });
-    return row;
-  }
+  double value(const State& state) const override;
+  Row gradient(const State& state) const override;
 
  private:
   template <typename Visit>
-  void for_each(const State& state, const Visit& visit) const {
-    for (Index j = 0; j < contacts_.contact_count(); ++j) {
-      const ContactLabel& label = contacts_.candidate(j).label();
-      if (label.wall == of_.wall && of_.includes(label.member, label.fraction) &&
-          contacts_.friction_index(state.active_set, j))
-        visit(j);
-    }
-  }
+  void for_each(const State& state, const Visit& visit) const;
 
   const MultiplierContact& contacts_;
   ContactsOfWall of_;
   What what_;
+};
+
+/// The power −Σ T v of friction at the contacts of a wall, or of all walls: its gradient along a path is the rate of
+/// what friction has dissipated. That itself is no function of the state: value() is 0, and a Recorder integrates.
+class FrictionPower final : public Observable {
+ public:
+  /// `contacts` must outlive this. `wall`: empty for all.
+  FrictionPower(const MultiplierContact& contacts, std::string wall) : contacts_(contacts), wall_(std::move(wall)) {}
+
+  double value(const State&) const override { return 0.0; }
+  Row gradient(const State& state) const override;
+
+ private:
+  const MultiplierContact& contacts_;
+  std::string wall_;
 };
 
 }  // namespace arcwall

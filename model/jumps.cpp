@@ -484,11 +484,11 @@ void add_jumps(const Model& model, Record& record) {
     const auto point = loses_stability(event) ? point_of(record, event) : std::nullopt;
     if (!point) continue;
     if (model.system().has_friction()) {
-      event.jump = std::make_shared<const RecordJump>(
-          RecordJump{.reason = "not_found",
-                     .why = "where a structure with friction comes to rest depends on its motion",
-                     .lambda = event.lambda,
-                     .point = *point});
+      event.jump =
+          std::make_shared<const RecordJump>(RecordJump{.reason = "not_found",
+                                                        .why = "it jumps; where it comes to rest depends on the motion",
+                                                        .lambda = event.lambda,
+                                                        .point = *point});
       continue;
     }
     if (const Index now = record.stage_number(event.branch); std::exchange(stage, now) != now)

@@ -22,10 +22,22 @@ struct RecordColumn {
 /// Stores what friction does at a closed contact.
 struct RecordFriction {
   ContactMode mode = ContactMode::sticks;
-  double force = 0.0;              ///< T, along the wall's tangent [force]
-  double coefficient = 0.0;        ///< μ [-]
-  double slip = 0.0;               ///< since the contact closed [length]
-  std::optional<double> anchor{};  ///< x of the place where it sticks [length]
+  double force = 0.0;                       ///< T, along the wall's tangent [force]
+  double coefficient = 0.0;                 ///< μ [-]
+  double slip = 0.0;                        ///< since the contact closed [length]
+  double tangent_x = 1.0, tangent_z = 0.0;  ///< the wall's tangent, with the structure to its left
+  std::optional<double> anchor{};           ///< x of the place where it sticks [length]
+};
+
+/// Stores a slip that goes on from a point, with its rates by the arc length.
+struct RecordSlip {
+  Index contact = 0;   ///< its number
+  double force = 0.0;  ///< T, along the wall's tangent [force]
+  double force_rate = 0.0;
+  double slip = 0.0;  ///< likewise [length]
+  double slip_rate = 0.0;
+
+  friend bool operator==(const RecordSlip&, const RecordSlip&) = default;
 };
 
 /// Stores a closed contact of a point, a row of contacts.csv.
@@ -58,6 +70,9 @@ struct RecordPoint {
   double residual = 0.0;             ///< relative
   std::optional<EventKind> event{};  ///< if several: the last that is no contact change, else the last
   std::vector<RecordForce> forces{};
+  std::vector<double> dissipation{};         ///< by friction since the start of the run, one a wall [force·length];
+                                             ///< empty without friction
+  std::vector<RecordSlip> slips{};           ///< just after it
   std::optional<RecordRates> rates{};        ///< just before the point; empty of load increments
   std::optional<RecordRates> rates_after{};  ///< just after it, where the path has a kink; else empty
   State state{};

@@ -13,7 +13,8 @@ void parts(Archive& archive, ContactLabel& label) {
 
 template <typename Archive>
 void parts(Archive& archive, RecordFriction& friction) {
-  archive(friction.mode, friction.force, friction.coefficient, friction.slip, friction.anchor);
+  archive(friction.mode, friction.force, friction.coefficient, friction.slip, friction.tangent_x, friction.tangent_z,
+          friction.anchor);
 }
 
 template <typename Archive>
@@ -24,6 +25,11 @@ void parts(Archive& archive, RecordFrictionWay::Contact& contact) {
 template <typename Archive>
 void parts(Archive& archive, RecordFrictionWay& way) {
   archive(way.contacts, way.lambda_sense, way.dissipation, way.unstable, way.taken);
+}
+
+template <typename Archive>
+void parts(Archive& archive, RecordSlip& slip) {
+  archive(slip.contact, slip.force, slip.force_rate, slip.slip, slip.slip_rate);
 }
 
 template <typename Archive>
@@ -39,8 +45,8 @@ void parts(Archive& archive, RecordRates& rates) {
 template <typename Archive>
 void parts(Archive& archive, RecordPoint& point) {
   archive(point.branch, point.step, point.arc, point.lambda, point.monitors, point.count, point.unstable_load_control,
-          point.contacts, point.energy, point.iterations, point.residual, point.event, point.forces, point.rates,
-          point.rates_after, point.state);
+          point.contacts, point.energy, point.iterations, point.residual, point.event, point.forces, point.dissipation,
+          point.slips, point.rates, point.rates_after, point.state);
 }
 
 template <typename Archive>

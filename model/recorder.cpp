@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/deck/key_list.hpp"
+#include "model/dissipation.hpp"
 #include "model/event_names.hpp"
 
 namespace arcwall {
@@ -14,13 +15,6 @@ namespace {
 bool moves_supports(const deck::Deck& deck) {
   return std::any_of(deck.prescribed.begin(), deck.prescribed.end(),
                      [](const deck::Prescribed& moved) { return !moved.constant; });
-}
-
-std::vector<double> values(const Model* model, const State& state) {
-  std::vector<double> result;
-  if (model == nullptr) return result;
-  for (const MonitorColumn& monitor : model->monitors()) result.push_back(monitor.quantity->value(state));
-  return result;
 }
 
 std::optional<double> pressure_of(const ContactPoint& contact, const deck::Frame& frame) {
@@ -35,7 +29,9 @@ std::optional<RecordFriction> friction_of(const ContactPoint& contact, const dec
   RecordFriction told{.mode = friction.mode,
                       .force = friction.force,
                       .coefficient = friction.coefficient,
-                      .slip = frame.factor() * friction.slip};
+                      .slip = frame.factor() * friction.slip,
+                      .tangent_x = friction.tangent.x(),
+                      .tangent_z = friction.tangent.y()};
   if (friction.anchor) told.anchor = frame.place(contact.place).x();
   return told;
 }
@@ -68,6 +64,14 @@ std::vector<double> mode_rates(const Model* model, const BranchPoint& point) {
   for (const MonitorColumn& monitor : model->monitors())
     result.push_back(monitor.quantity->gradient(point.state).dx.dot(point.mode.dx));
   return result;
+}
+
+// What a monitor shows of what walls have dissipated.
+double dissipation_of(const deck::Deck& deck, const deck::Monitor& monitor, const std::vector<double>& dissipation) {
+  double sum = 0.0;
+  for (std::size_t wall = 0; wall < dissipation.size(); ++wall)
+    if (monitor.wall.empty() || monitor.wall == deck.walls[wall].name) sum += dissipation[wall];
+  return monitor.sign * sum;
 }
 
 }  // namespace
@@ -114,16 +118,58 @@ void Recorder::begin(const BranchRecord& branch) {
   record_.branches.push_back(std::move(added));
 }
 
+// Monitors at a state; what friction has dissipated until there no state tells.
+std::vector<double> Recorder::values(const State& state, const std::vector<double>& dissipation) const {
+  std::vector<double> result;
+  if (model_ == nullptr) return result;
+  for (const MonitorColumn& monitor : model_->monitors())
+    result.push_back(
+        monitor.component == deck::Component::dissipation
+            ? dissipation_of(model_->deck(), *deck::find(model_->deck().monitors, monitor.name), dissipation)
+            : monitor.quantity->value(state));
+  return result;
+}
+
+// A branch goes on from the event where it leaves another, a stage from where the one before has ended.
+std::vector<double> Recorder::dissipation_at_start() const {
+  const RecordBranch& branch = record_.branches[branch_];
+  for (auto point = record_.points.rbegin(); point != record_.points.rend(); ++point) {
+    if (!branch.origin) return point->dissipation;
+    const RecordEvent& origin = record_.events[static_cast<std::size_t>(*branch.origin)];
+    if (point->branch == origin.branch && point->step == origin.step) return point->dissipation;
+  }
+  return std::vector<double>(model_->deck().walls.size(), 0.0);
+}
+
+// Empty without friction. `arc`: that of the point.
+std::vector<double> Recorder::dissipation_until(const PathTangent& arrives, double arc) const {
+  if (model_ == nullptr || !record_.has_friction) return {};
+  if (record_.branches[branch_].points == 0) return dissipation_at_start();
+  const RecordPoint& before = record_.points.back();
+  std::vector<double> sums = before.dissipation;
+  const std::vector<deck::Wall>& walls = model_->deck().walls;
+  const auto slips = slips_along(*model_->contact(), arrives.state, arrives.tangent, model_->frame().factor());
+  for (const RecordSlip& from : before.slips)
+    for (const RecordSlip& to : slips) {
+      if (from.contact != to.contact) continue;
+      const std::string& name = model_->contact()->candidate(to.contact).label().wall;
+      const auto wall = deck::find(walls, name) - walls.data();
+      sums[static_cast<std::size_t>(wall)] += dissipated(from, to, arc - before.arc);
+    }
+  return sums;
+}
+
 void Recorder::add(const Arc& arc, const PathPoint& leaves) {
   const PathPoint& to = arc.to;
   const PathTangent arrives = arc.arrives.value_or(PathTangent{.state = to.state, .tangent = to.tangent});
+  const std::vector<double> dissipation = dissipation_until(arrives, to.arc);
   const bool has_kink = leaves.state.active_set != arrives.state.active_set;
   record_.points.push_back(
       {.branch = branch().id,
        .step = branch().points,
        .arc = to.arc,
        .lambda = to.state.lambda,
-       .monitors = values(model_, to.state),
+       .monitors = values(to.state, dissipation),
        .count = to.count,
        .unstable_load_control = model_ == nullptr ? std::nullopt : model_->unstable_under_dead_load(to),
        .contacts = model_ == nullptr ? 0 : model_->closed_contacts(to.state),
@@ -131,6 +177,10 @@ void Recorder::add(const Arc& arc, const PathPoint& leaves) {
        .iterations = to.iterations,
        .residual = to.residual,
        .forces = forces_at(model_, to.state),
+       .dissipation = dissipation,
+       .slips = dissipation.empty()
+                    ? std::vector<RecordSlip>()
+                    : slips_along(*model_->contact(), leaves.state, leaves.tangent, model_->frame().factor()),
        .rates = rates_along(model_, arrives.state, arrives.tangent),
        .rates_after = has_kink ? rates_along(model_, leaves.state, leaves.tangent) : std::nullopt,
        .state = to.state});
@@ -169,7 +219,7 @@ RecordEvent Recorder::recorded(const Event& event, const State& at) const {
   RecordEvent record{.kind = event.kind,
                      .arc = event.arc,
                      .lambda = at.lambda,
-                     .monitors = values(model_, at),
+                     .monitors = values(at, record_.points.back().dissipation),
                      .unstable_before = event.unstable_before,
                      .unstable_after = event.unstable_after,
                      .residual = event.residual,
@@ -191,7 +241,8 @@ RecordEvent Recorder::recorded(const Event& event, const State& at) const {
     record.mesh_artefact = event.branching->mesh_artefact;
     record.mode = mode_rates(model_, *event.branching);
   }
-  if (model_ == nullptr || !changes_contact(event.kind)) return record;
+  const bool names_contacts = changes_contact(event.kind) || !event.friction_ways.empty();
+  if (model_ == nullptr || !names_contacts) return record;
   for (const Index j : event.guards) {
     const ContactPoint contact = model_->contacts()->contact(event.state, j);
     record.contacts.push_back({.label = contact.label, .x = model_->frame().place(contact.place).x()});

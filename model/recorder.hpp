@@ -40,6 +40,9 @@ class Recorder {
   RecordBranch& branch() { return record_.branches[branch_]; }
   /// `at`: the state that the point of the event tells.
   RecordEvent recorded(const Event& event, const State& at) const;
+  std::vector<double> values(const State& state, const std::vector<double>& dissipation) const;
+  std::vector<double> dissipation_at_start() const;
+  std::vector<double> dissipation_until(const PathTangent& arrives, double arc) const;
   void add_event(RecordEvent event);
 
   const Model* model_;  // null for a system of a program

@@ -46,8 +46,11 @@ std::vector<ContactMark> contact_marks(const ContactQuery& contacts, const State
   std::vector<ContactMark> marks;
   const auto add = [&](const std::vector<ContactPoint>& points) {
     for (const ContactPoint& point : points)
-      marks.push_back(
-          {.label = point.label, .position = point.place, .force = point.force_vector, .pressure = point.pressure()});
+      marks.push_back({.label = point.label,
+                       .position = point.place,
+                       .force = point.force_vector,
+                       .pressure = point.pressure(),
+                       .friction = point.friction});
   };
   add(contacts.closed_contacts(state));
   add(contacts.pressed_nodes(state));

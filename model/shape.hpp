@@ -21,6 +21,7 @@ struct ContactMark {
   Vec2 position = Vec2::Zero();      ///< of the contact point [length]
   Vec2 force = Vec2::Zero();         ///< of the wall on the structure [force]
   std::optional<double> pressure{};  ///< force over tributary length [force/length]; empty for a point force
+  std::optional<FrictionOfContact> friction{};
 };
 
 struct Shape {

@@ -22,11 +22,12 @@ namespace {
 // Every branch, one after the other.
 class PathTracing final : public Tracing {
  public:
-  // `ended_stages`: the λ at which the stages before the model's have ended.
+  // `ended_stages`: the λ at which the stages before the model's have ended. `reverses`: λ turns at the start.
   PathTracing(const Model& model, Record& record, const State& start, StepLedger ledger,
-              std::vector<double> ended_stages = {})
+              std::vector<double> ended_stages = {}, bool reverses = false)
       : model_(model),
         record_(record),
+        reverses_(reverses),
         sensitivities_(model, std::move(ended_stages)),
         first_(static_cast<int>(record.branches.size())),
         explorer_(model.system(), start, options(ledger), model.watched(), explore()),
@@ -40,6 +41,7 @@ class PathTracing final : public Tracing {
       return false;
     }
     if (step->branch != branch_) {
+      if (branch_ < 0 && reverses_) add_reversal(step->arc);
       close_branch();
       branch_ = step->branch;
       BranchRecord begun = branch();
@@ -102,6 +104,15 @@ class PathTracing final : public Tracing {
     return options;
   }
 
+  static void add_reversal(Arc& arc) {
+    arc.events.push_back({.kind = EventKind::reversal,
+                          .state = arc.to.state,
+                          .arc = arc.to.arc,
+                          .residual = arc.to.residual,
+                          .unstable_before = arc.to.count.unstable,
+                          .unstable_after = arc.to.count.unstable});
+  }
+
   // The branch that has begun is where a jump from this one ended.
   void leads_here(Index parent) {
     RecordBranch& here = record_.branches.back();
@@ -152,6 +163,7 @@ class PathTracing final : public Tracing {
 
   const Model& model_;
   Record& record_;
+  bool reverses_;
   Sensitivities sensitivities_;
   int first_;  // of the branches that the explorer counts from 0
   Explorer explorer_;
@@ -200,7 +212,27 @@ class StageTracing final : public Tracing {
     stage_ = stage;
     const std::vector<double>& ended = model_.ended_stages();
     tracing_ = std::make_unique<PathTracing>(model_.at_stage(stage), record_, start, ledger_,
-                                             std::vector(ended.begin(), ended.begin() + stage));
+                                             std::vector(ended.begin(), ended.begin() + stage), drives_back(stage));
+  }
+
+  // Whether a stage drives something back that an earlier one has driven. Without friction that changes nothing.
+  bool drives_back(Index stage) const {
+    if (!record_.has_friction) return false;
+    const std::vector<deck::Stage>& stages = model_.whole_deck().stages;
+    const deck::Stage& now = stages[static_cast<std::size_t>(stage)];
+    const double step = model_.at_stage(stage).deck().path.step;
+    return std::any_of(now.drives.begin(), now.drives.end(), [&](const std::string& thing) {
+      for (Index before = stage - 1; before >= 0; --before)
+        if (drives(stages[static_cast<std::size_t>(before)], thing)) return last_sense(before) * step < 0.0;
+      return false;
+    });
+  }
+
+  // The sign of the rate of λ where a stage has ended.
+  double last_sense(Index stage) const {
+    for (auto point = record_.points.rbegin(); point != record_.points.rend(); ++point)
+      if (record_.stage_number(point->branch) == stage && point->rates) return point->rates->lambda;
+    return 0.0;
   }
 
   // A bound or an event of `stop` ends a stage; what ends it otherwise ends the run.

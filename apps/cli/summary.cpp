@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <limits>
+#include <algorithm>
+#include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include "apps/output/load_text.hpp"
 #include "apps/output/text_table.hpp"
@@ -132,6 +134,48 @@ void add_contact(const deck::Deck& deck, Lines& lines) {
   }
 }
 
+// The least and greatest coefficient of a wall on what may touch it.
+std::pair<double, double> coefficients(const MultiplierContact& contact, const std::string& wall) {
+  std::pair range(infinity, 0.0);
+  for (Index j = 0; j < contact.contact_count(); ++j) {
+    const Candidate& candidate = contact.candidate(j);
+    if (candidate.label().wall != wall) continue;
+    range.first = std::min(range.first, candidate.friction());
+    range.second = std::max(range.second, candidate.friction());
+  }
+  return range;
+}
+
+// A member of which more than one element lies on a wall at the start.
+std::string lies_on(const MultiplierContact& contact, const std::string& wall, const State& at_rest, double touching) {
+  std::unordered_map<std::string, Index> touched;
+  for (Index j = 0; j < contact.contact_count(); ++j) {
+    const Candidate& candidate = contact.candidate(j);
+    const bool touches = candidate.label().wall == wall && std::abs(candidate.gap(at_rest)) <= touching;
+    if (touches && ++touched[candidate.label().member] > 2) return candidate.label().member;
+  }
+  return {};
+}
+
+void add_friction(const Model& model, Lines& lines) {
+  const deck::Deck& deck = model.whole_deck();
+  const MultiplierContact* const contact = model.contact();
+  if (contact == nullptr || !contact->has_friction()) return;
+  const double touching = 1e-9 * model.structure().length_scale();
+  const State at_rest{.x = Vector::Zero(model.structure().size({}))};
+  for (const deck::Wall& wall : deck.walls) {
+    const auto [least, most] = coefficients(*contact, wall.name);
+    if (most <= 0.0) continue;
+    lines.add("friction",
+              fmt::format("{}: {}, at nodes and free ends", wall.name,
+                          least < most ? fmt::format("{:.6g} to {:.6g}", least, most) : fmt::format("{:.6g}", most)));
+    if (most > 1.0) lines.add("friction", wall.name + ": above 1 a load may have several states");
+    if (const std::string member = lies_on(*contact, wall.name, at_rest, touching); !member.empty())
+      lines.add("friction",
+                member + " lies along " + wall.name + ": fronts of slip move from node to node, so compare meshes");
+  }
+}
+
 std::string what_is_shown(const deck::Monitor& monitor) {
   switch (monitor.of()) {
     case deck::Monitored::place:
@@ -139,7 +183,7 @@ std::string what_is_shown(const deck::Monitor& monitor) {
     case deck::Monitored::wall:
       return "wall " + monitor.wall;
     case deck::Monitored::structure:
-      return "all members";
+      return monitor.component == deck::Component::dissipation ? "all walls" : "all members";
     case deck::Monitored::gap:
       return to_text(monitor.at) + " and wall " + monitor.wall;
     case deck::Monitored::member:
@@ -175,6 +219,7 @@ std::string summary(const Model& model) {
   Lines lines;
   add_model(model, lines);
   add_contact(model.whole_deck(), lines);
+  add_friction(model, lines);
   add_path(model.whole_deck(), lines);
   return lines.text(model.whole_deck().source.file);
 }

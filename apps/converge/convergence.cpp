@@ -132,7 +132,17 @@ deck::Deck with_stiffer_springs(deck::Deck deck) {
   return deck;
 }
 
-void compare(const Convergence& study, bool has_stiffer, ConvergedValue& of) {
+// Whether a contact has slipped before an event, or slips from there on.
+bool is_behind_a_slip(const Record& record, const RecordEvent& event) {
+  const auto begins_to_slip = [](const RecordContact& contact) {
+    return contact.friction && slips(contact.friction->mode);
+  };
+  return std::any_of(record.events.begin(), record.events.end(), [&](const RecordEvent& before) {
+    return before.id < event.id && std::any_of(before.contacts.begin(), before.contacts.end(), begins_to_slip);
+  });
+}
+
+void compare(const Convergence& study, bool has_stiffer, bool behind_a_slip, ConvergedValue& of) {
   std::vector<double> values;
   for (const auto& value : of.on_mesh)
     if (value) values.push_back(*value);
@@ -141,7 +151,9 @@ void compare(const Convergence& study, bool has_stiffer, ConvergedValue& of) {
                       return a.has_value() && !b.has_value();
                     }) != of.on_mesh.end();
   const double unsure = std::max(of.uncertainty, roundoff * std::abs(values.back()));
-  if (gaps) {
+  if (behind_a_slip) {
+    of.limit = {.value = values.back(), .irregular = "it depends on the way that led there"};
+  } else if (gaps) {
     of.limit = {.value = values.back(), .irregular = "not on every finer mesh"};
   } else {
     of.limit = extrapolated(values, study.factor, unsure);
@@ -231,6 +243,7 @@ void compare_events(Convergence& study, const std::optional<Record>& stiffer) {
       if (taken[of][event]) continue;
       ConvergedEvent one = gathered(study, of, event, on);
       one.number = number;
+      one.behind_a_slip = is_behind_a_slip(record, one.event);
       for (std::size_t mesh = 0; mesh < of; ++mesh)
         if (on[mesh][event]) taken[mesh][*on[mesh][event]] = true;
       study.events.push_back(std::move(one));
@@ -250,8 +263,8 @@ void compare_events(Convergence& study, const std::optional<Record>& stiffer) {
         for (std::size_t k = 0; k < one.monitors.size(); ++k)
           one.monitors[k].penalty = penalty(own.events[i].monitors[k], there.monitors[k]);
       }
-    compare(study, stiffer.has_value(), one.lambda);
-    for (ConvergedValue& monitor : one.monitors) compare(study, stiffer.has_value(), monitor);
+    compare(study, stiffer.has_value(), one.behind_a_slip, one.lambda);
+    for (ConvergedValue& monitor : one.monitors) compare(study, stiffer.has_value(), one.behind_a_slip, monitor);
   }
 }
 

@@ -31,7 +31,8 @@ struct ConvergedValue {
 /// An event on the finest mesh that has it, with what the other meshes say of it.
 struct ConvergedEvent {
   RecordEvent event{};
-  Index number = 1;  ///< among those of its kind on its mesh, in their order
+  Index number = 1;            ///< among those of its kind on its mesh, in their order
+  bool behind_a_slip = false;  ///< it depends on the way that led there, and nothing is extrapolated
   ConvergedValue lambda{};
   std::vector<ConvergedValue> monitors{};  ///< in the order of the columns; empty values where one is known on no mesh
 };

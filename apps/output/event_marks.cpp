@@ -42,7 +42,7 @@ EventMark mark_of(EventKind kind) {
     case EventKind::contact_slips:
       return {.symbol = "triangle-right", .outline = polygon(3, 0.0, {1.15}), .filled = filled};
     case EventKind::contact_sticks:
-      return {.symbol = "square", .outline = polygon(4, 0.5, {0.8}), .filled = !filled};
+      return {.symbol = "square", .outline = polygon(4, 0.5, {0.8}), .filled = filled};
     case EventKind::contact_transfers:
       return {.symbol = "diamond-tall", .outline = polygon(4, 0.0, {0.8, 1.3}), .filled = !filled};
     case EventKind::limit_point:
@@ -53,6 +53,8 @@ EventMark mark_of(EventKind kind) {
       return {.symbol = "square", .outline = polygon(4, 0.5, {1.1}), .filled = filled};
     case EventKind::value_crossing:
       return {.symbol = "diamond-tall", .outline = polygon(4, 0.0, {0.8, 1.3}), .filled = filled};
+    case EventKind::reversal:
+      return {.symbol = "triangle-left", .outline = polygon(3, 2.0, {1.15}), .filled = !filled};
     case EventKind::branch_point:
       return {.symbol = "star", .outline = polygon(10, 1.0, {1.4, 0.55}), .filled = filled};
     case EventKind::user:
@@ -94,6 +96,8 @@ std::string_view meaning(EventKind kind) {
       return "a watched monitor has a maximum or minimum";
     case EventKind::value_crossing:
       return "a watched monitor passes a value";
+    case EventKind::reversal:
+      return "the load turns back, as the deck asks";
     case EventKind::branch_point:
       return "bifurcation: branches intersect";
     case EventKind::user:

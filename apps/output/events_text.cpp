@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
@@ -22,12 +23,26 @@ namespace {
 
 constexpr std::size_t most_contacts = 3;  // named in one row
 
-std::string contacts(const std::vector<RecordContact>& list) {
+// ` slips to the right: |T| = 0.8 p, p = 15.688`; of a contact that closes `, slips to the right`.
+std::string what_it_does(const RecordContact& contact, bool closes) {
+  const RecordFriction& friction = *contact.friction;
+  const std::string text = closes ? ", " : " ";
+  if (!slips(friction.mode)) return text + "sticks";
+  const double sense = slip_sense(friction.mode), x = sense * friction.tangent_x, z = sense * friction.tangent_z;
+  const bool sideways = std::abs(x) >= std::abs(z);
+  const std::string to = sideways ? (x > 0.0 ? "to the right" : "to the left") : (z > 0.0 ? "up" : "down");
+  if (closes) return text + "slips " + to;
+  return fmt::format("{}slips {}: |T| = {:.6g} p, p = {:.5g}", text, to, friction.coefficient,
+                     contact.force.value_or(0.0));
+}
+
+std::string contacts(const RecordEvent& event) {
+  const std::vector<RecordContact>& list = event.contacts;
   std::string text;
   for (std::size_t i = 0; i < std::min(list.size(), most_contacts); ++i) {
     const ContactLabel& label = list[i].label;
     text += fmt::format("{}{} at {}:{:.4g}", i > 0 ? ", " : "", label.wall, label.member, label.fraction);
-    if (list[i].friction) text += fmt::format(" ({})", to_text(list[i].friction->mode));
+    if (list[i].friction) text += what_it_does(list[i], event.kind == EventKind::contact_closes);
   }
   if (list.size() > most_contacts) text += fmt::format(" and {} more", list.size() - most_contacts);
   return text;
@@ -106,12 +121,12 @@ std::string event_detail(const RecordEvent& event) {
            (event.multiplicity > 1 ? fmt::format(", {} modes", event.multiplicity) : "") +
            (event.unconfirmed ? ", unconfirmed" : "") + (event.mesh_artefact ? ", of the node contact" : "");
   if (event.unconfirmed) return "unconfirmed";
-  if (event.extremum) return std::string(to_text(*event.extremum));
+  if (event.extremum && event.contacts.empty()) return std::string(to_text(*event.extremum));
   if (event.value) return *event.monitor + " = " + shown_number(*event.value, 6);
   if (event.monitor) return *event.monitor;
   if (event.continuum)
-    return contacts(event.contacts) + fmt::format("; of {} lengths only the sum is determined", event.continuum->parts);
-  return contacts(event.contacts);
+    return contacts(event) + fmt::format("; of {} lengths only the sum is determined", event.continuum->parts);
+  return contacts(event);
 }
 
 std::string shown_lambda(const RecordEvent& event, int digits) {

@@ -154,6 +154,16 @@ OrderedJson contact_json(const ContactMark& contact, double greatest) {
                              contact.pressure ? number(*contact.pressure, 6) : OrderedJson(nullptr)});
 }
 
+// With friction, behind these: what the contact does, T, p and |T|/(μ p).
+void add_friction(const ContactMark& contact, OrderedJson& json) {
+  if (!contact.friction) return;
+  const FrictionOfContact& friction = *contact.friction;
+  const double p = (contact.force - friction.force * friction.tangent).norm();
+  const bool has_slip = slips(friction.mode);
+  const double use = has_slip ? 1.0 : p > 0.0 ? std::abs(friction.force) / (friction.coefficient * p) : 0.0;
+  json.insert(json.end(), {has_slip ? "slips" : "sticks", number(friction.force, 6), number(p, 6), number(use, 6)});
+}
+
 struct GreatestForces {
   double force = 0.0, moment = 0.0;
 };
@@ -218,7 +228,10 @@ OrderedJson walls_json(const ShapePictures& shapes) {
 
 OrderedJson shape_json(const ShapePictures& shapes, const ShapePicture& picture, const GreatestForces& greatest) {
   OrderedJson contacts = OrderedJson::array();
-  for (const ContactMark& contact : picture.contacts) contacts.push_back(contact_json(contact, shapes.greatest_force));
+  for (const ContactMark& contact : picture.contacts) {
+    contacts.push_back(contact_json(contact, shapes.greatest_force));
+    add_friction(contact, contacts.back());
+  }
   return {{"point", picture.point},
           {"paths", picture.paths},
           {"moves", picture.moves},

@@ -188,7 +188,8 @@ double unit_of_moves(double greatest) {
 
 std::vector<std::string> classes_of(const Scene& scene) {
   std::vector<std::string> classes(scene.shape.members.size(), "member");
-  classes.insert(classes.end(), {"moving-surface", "moving", "springs", "supports", "loads", "forces", "touches"});
+  classes.insert(classes.end(),
+                 {"moving-surface", "moving", "springs", "supports", "loads", "forces", "touches", "friction"});
   return classes;
 }
 
@@ -235,9 +236,23 @@ std::vector<std::vector<ForceSample>> sampled_forces(const Shape& shape, std::si
   return forces;
 }
 
+// The friction force.
+Vec2 along_wall(const ContactMark& contact) {
+  return contact.friction ? Vec2(contact.friction->force * contact.friction->tangent) : Vec2(0.0, 0.0);
+}
+
+// A dot, or the square of a contact that sticks by friction; their lines are thick.
+std::string touch_data(const Vec2& place, const ContactMark& contact) {
+  const bool sticks = contact.friction && contact.friction->mode == ContactMode::sticks;
+  if (!sticks) return fmt::format("M{:.0f} {:.0f}h0", place.x(), place.y());
+  constexpr double half = 4.0;
+  return fmt::format("M{:.0f} {:.0f}h{:.0f}v{:.0f}h{:.0f}z", place.x() - half, place.y() - half, 2.0 * half, 2.0 * half,
+                     -2.0 * half);
+}
+
 // The paths in the order of classes_of().
 ShapePicture picture_of(const Frame& frame, const Greatest& greatest, std::size_t point, const Scene& scene) {
-  std::string surfaces, bodies, springs, supports, loads, forces, touches;
+  std::string surfaces, bodies, springs, supports, loads, forces, touches, friction;
   for (const WallPicture& wall : drawn_walls(frame, scene.walls)) {
     surfaces += wall.surface;
     bodies += wall.body;
@@ -253,12 +268,14 @@ ShapePicture picture_of(const Frame& frame, const Greatest& greatest, std::size_
   }
   for (const ContactMark& contact : scene.shape.contacts) {
     const Vec2 place = frame.place(contact.position);
-    touches += fmt::format("M{:.0f} {:.0f}h0", place.x(), place.y());
-    forces += arrow_data(place, frame.wall_arrow(contact.force, greatest.wall));
+    touches += touch_data(place, contact);
+    const Vec2 along = along_wall(contact);
+    forces += arrow_data(place, frame.wall_arrow(contact.force - along, greatest.wall));
+    if (!along.isZero()) friction += arrow_data(place, frame.wall_arrow(along, greatest.wall));
   }
   ShapePicture picture{.point = point, .contacts = scene.shape.contacts};
   for (const MemberShape& member : scene.shape.members) picture.paths.push_back(member_data(frame, member));
-  picture.paths.insert(picture.paths.end(), {surfaces, bodies, springs, supports, loads, forces, touches});
+  picture.paths.insert(picture.paths.end(), {surfaces, bodies, springs, supports, loads, forces, touches, friction});
   return picture;
 }
 

@@ -108,7 +108,8 @@ struct ShapePictures {
   std::vector<std::string> bodies{};    ///< what is solid of them: a closed path each
   std::vector<double> thickness{};      ///< of the paths; 0: a mere line
   std::vector<std::string> classes{};   ///< of a picture's paths: `member` for each, `moving-surface`, `moving`,
-                                        ///< `springs`, `supports`, `loads`, `forces`, `touches`
+                                        ///< `springs`, `supports`, `loads`, `forces`, `touches`,
+                                        ///< `friction`
   std::vector<ShapePicture> pictures{};
   std::vector<ShapePicture> after_jumps{};  ///< `point` is not used
   std::vector<DrawnMember> members{};

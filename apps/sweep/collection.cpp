@@ -115,7 +115,7 @@ Overview overview(const Collection& collection) {
        {EventKind::contact_closes, EventKind::contact_opens, EventKind::contact_spreads, EventKind::contact_splits,
         EventKind::contact_shrinks, EventKind::contacts_merge, EventKind::contact_transfers, EventKind::contact_slips,
         EventKind::contact_sticks, EventKind::limit_point, EventKind::contact_limit_point, EventKind::turning_point,
-        EventKind::value_crossing, EventKind::branch_point}) {
+        EventKind::value_crossing, EventKind::reversal, EventKind::branch_point}) {
     const std::string name(to_text(kind));
     if (std::find(all.event_kinds.begin(), all.event_kinds.end(), name) != all.event_kinds.end())
       in_order.push_back(name);

@@ -142,14 +142,16 @@ void read_friction(const NodeContacts& contacts, Touches& touches) {
     const ContactPoint told = model.contact()->contact(state, static_cast<Index>(j));
     if (!touch.closed || !told.friction) continue;
     const PlainWall& wall = wall_of(walls, touch.label.wall);
-    const SectionPoint point = section_point(contacts, static_cast<Index>(j));
+    SectionPoint point = section_point(contacts, static_cast<Index>(j));
+    if (model.deck().contact.friction_at == deck::FrictionAt::axis) point.offset = 0.0;
     const double sign = wall.has_outline() || wall.deck().side == Side::below ? 1.0 : -1.0;
     const Vec2 tangent = sign * unit_tangent(wall.slope_angle(point.at(touch.gap.at)));
-    FrictionAtTouch friction{.along = touch.gap,
-                             .force = state.x[next++],
-                             .coefficient = deck::friction_of(model.deck(), wall.deck(), touch.label.member),
-                             .slips = slips(told.friction->mode),
-                             .slip = told.friction->slip};
+    FrictionAtTouch friction{
+        .along = touch.gap,
+        .force = state.x[next++],
+        .coefficient = deck::friction_of(model.deck(), wall.deck(), touch.label.member, touch.label.fraction),
+        .slips = slips(told.friction->mode),
+        .slip = told.friction->slip};
     friction.along.slopes = nullptr;
     friction.along.bends = nullptr;
     friction.along.of = [point, tangent](const Vector& u) { return tangent.dot(point.at(u)); };

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "core/text.hpp"
 #include "model/event_names.hpp"
@@ -29,8 +30,8 @@ double number(const Json& value) {
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-// 0 also of two that are infinite, as gaps are where no wall is.
-double difference(double a, double b) { return a == b ? 0.0 : std::abs(a - b); }
+// 0 also of two that are infinite, as gaps are where no wall is, or no numbers, as the use of friction without contact.
+double difference(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)) ? 0.0 : std::abs(a - b); }
 
 // A value of this size written and read again, and computed on another machine.
 double rounding(double size) { return 1e-12 * size; }
@@ -85,10 +86,11 @@ std::vector<Row> csv_rows(const std::string& text) {
 }
 
 // branch, step, arc, lambda, monitors …, unstable, stability, contacts, energy, iterations, event, and perhaps
-// unstable_load_control and stage
+// unstable_load_control and stage; with friction `slipping` behind contacts, and `dissipation` behind energy
 void check_path_row(const Row& row, const RecordPoint& point, const PathExpectation& expected, Findings& findings) {
   const std::size_t monitors = expected.monitors.size();
-  const std::size_t cells = monitors + 10 + (expected.moves_supports ? 1 : 0) + (expected.stage ? 1 : 0);
+  const std::size_t cells =
+      monitors + 10 + (expected.slipping ? 2 : 0) + (expected.moves_supports ? 1 : 0) + (expected.stage ? 1 : 0);
   findings.require("path.csv has its columns", row.size() == cells, "number of cells");
   if (row.size() != cells) return;
   const auto same = [&](std::size_t cell, const std::string& what, const std::string& value) {
@@ -102,7 +104,16 @@ void check_path_row(const Row& row, const RecordPoint& point, const PathExpectat
     if (std::isfinite(expected.allowed[i]))
       findings.compare("path.csv matches the states", difference(number(row[4 + i]), expected.monitors[i]),
                        expected.allowed[i], "monitor " + expected.names[i]);
-  const Row rest(row.begin() + 4 + static_cast<std::ptrdiff_t>(monitors), row.end());
+  Row rest(row.begin() + 4 + static_cast<std::ptrdiff_t>(monitors), row.end());
+  if (expected.slipping) {
+    constexpr std::ptrdiff_t slipping = 3, dissipation = 5;
+    const double total = std::accumulate(point.dissipation.begin(), point.dissipation.end(), 0.0);
+    expect_same("path.csv matches the states", rest[slipping], std::to_string(*expected.slipping), "slipping",
+                findings);
+    findings.compare("path.csv matches the states", difference(number(rest[dissipation]), total), 0.0, "dissipation");
+    rest.erase(rest.begin() + dissipation);
+    rest.erase(rest.begin() + slipping);
+  }
   if (expected.unstable && !rest[0].empty()) {
     const double count = number(rest[0]);
     const auto [least, most] = *expected.unstable;

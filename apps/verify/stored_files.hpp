@@ -22,6 +22,7 @@ struct PathExpectation {
   std::optional<CountRange> unstable{};  ///< empty: not checked
   std::optional<CountRange> unstable_load_control{};
   Index contacts = 0;
+  std::optional<Index> slipping{};     ///< of them, in decks with friction
   bool moves_supports = false;         ///< so that it has a column unstable_load_control
   std::optional<std::string> stage{};  ///< of a deck with stages
 };

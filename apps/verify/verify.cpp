@@ -7,6 +7,7 @@
 
 #include "apps/output/text_table.hpp"
 #include "apps/verify/counts.hpp"
+#include "apps/verify/energy_balance.hpp"
 #include "apps/verify/passages.hpp"
 #include "apps/verify/point_checks.hpp"
 #include "apps/verify/rates.hpp"
@@ -66,6 +67,10 @@ void add_monitors(const PointAtHand& at, PathExpectation& expected, Findings& fi
     }
     double value = column.quantity->value(at.point.state);
     if (const deck::Monitor* monitor = deck::find(model.deck().monitors, column.name)) {
+      if (column.component == deck::Component::dissipation)
+        for (std::size_t wall = 0; wall < at.point.dissipation.size(); ++wall)
+          if (monitor->wall.empty() || monitor->wall == model.deck().walls[wall].name)
+            value += monitor->sign * at.point.dissipation[wall];
       if (const auto own = own_value(at, *monitor)) value = monitor->sign * column.factor * *own;
       if (is_extreme(column.component) || column.component == deck::Component::mean_pressure)
         check_greatest(at, *monitor, std::abs(value) / column.factor,
@@ -102,6 +107,11 @@ ZeroEigenvalue zero_eigenvalue(const Model& model, const Record& record, const R
 Index listed_contacts(const Touches& touches) {
   return std::count_if(touches.all.begin(), touches.all.end(),
                        [](const Touch& touch) { return touch.closed && touch.listed; });
+}
+
+Index slipping_contacts(const Touches& touches) {
+  return std::count_if(touches.all.begin(), touches.all.end(),
+                       [](const Touch& touch) { return touch.friction && touch.friction->slips; });
 }
 
 // `uncounted`: points whose unstable directions were not counted.
@@ -171,6 +181,11 @@ class Verifier {
                      fmt::format("{} rows, {} points", path_rows_.size(), record_.points.size()));
     for (std::size_t i = 0; i < record_.points.size(); ++i)
       if (!check_point(i)) return verdict_;  // nothing else can be told
+    for (const RecordBranch& branch : record_.branches) {
+      if (!record_.has_friction) break;
+      findings.at(states_file_, branch.id, branch.points - 1);
+      check_energy_balance(model_.at_stage(record_.stage_number(branch.id)), record_, branch.id, findings);
+    }
     findings.at("contacts.csv", 0, 0);
     findings.require("contacts.csv has one row per closed contact", next_contact_ == contact_rows_.size(),
                      fmt::format("{} rows, {} closed contacts", contact_rows_.size(), next_contact_));
@@ -205,6 +220,7 @@ class Verifier {
     if (!well_formed) return false;
     const PointAtHand at = at_hand(model, point, walls_[static_cast<std::size_t>(stage)], scales_);
     PathExpectation expected{.contacts = listed_contacts(at.touches), .moves_supports = record_.moves_supports};
+    if (record_.has_friction) expected.slipping = slipping_contacts(at.touches);
     add_monitors(at, expected, findings);
     if (!record_.stages.empty()) expected.stage = record_.stage_of(point.branch);
     if (!model_.in_increments()) {

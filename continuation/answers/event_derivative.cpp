@@ -49,6 +49,7 @@ bool is_change_of_contact(EventKind kind) {
     case EventKind::contact_limit_point:
     case EventKind::turning_point:
     case EventKind::value_crossing:
+    case EventKind::reversal:
     case EventKind::branch_point:
     case EventKind::user:
       break;

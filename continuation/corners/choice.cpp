@@ -11,8 +11,6 @@ namespace arcwall {
 
 namespace {
 
-constexpr double same_way = 1.0 - 1e-6;  // cosine above which two directions are one
-
 // A direction with all contacts open, of unit length: how the structure moves.
 Direction open_direction(const TraceTools& tools, const Metric& open_metric, const Direction& direction,
                          const ActiveSet& active_set) {

@@ -19,8 +19,6 @@ namespace arcwall {
 namespace {
 
 constexpr int most_changes_here = 50;
-constexpr double mirror_images = 1e-8;       // by what bounds of friction that symmetry lets be reached together differ
-constexpr double same_motion = 1.0 - 1e-6;   // cosine above which two directions are one
 constexpr double rate_noise = 1e-10;         // error of rates, relative to the greatest of their kind
 constexpr std::size_t few_contacts = 6;      // whose combinations are all tried
 constexpr std::size_t most_combined = 4096;  // combinations of modes that are tried where nothing else is found
@@ -47,6 +45,12 @@ double bound_tolerance(const TraceTools& tools, const Corner& corner) {
   return std::max(tools.options.guard_tolerance, 2.0 * corner.slack);
 }
 
+// Whether a guard is zero, or is within the distance below which points of a path coincide: symmetry lets bounds be
+// reached together, up to round-off.
+bool is_reached(double guard, double rate, double tolerance) {
+  return guard <= std::max(tolerance, -coincidence_tolerance * rate);
+}
+
 // The contacts that stand at a bound: those that touch without a force, those that stick with |T| = μ p, and those that
 // slip, which may stick from here on.
 std::vector<BoundContact> choices_at(const TraceTools& tools, const Corner& corner, std::optional<Index> landed,
@@ -71,7 +75,7 @@ std::vector<BoundContact> choices_at(const TraceTools& tools, const Corner& corn
       choices.push_back({.contact = j, .modes = {mode, sticks}});
   }
   for (Index guard = contacts; guard < corner.at.guards.size(); ++guard) {
-    if (corner.at.guards[guard] > std::max(tolerance, mirror_images) && landed != guard) continue;
+    if (!is_reached(corner.at.guards[guard], corner.at.guard_rates[guard], tolerance) && landed != guard) continue;
     const auto beyond = system.beyond_friction_bound(active_set, guard);
     const auto known = [&](const BoundContact& choice) { return choice.contact == beyond->contact; };
     if (beyond && std::none_of(choices.begin(), choices.end(), known))
@@ -148,9 +152,11 @@ std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& cor
     else if (slips(mode) && sense_of_slip(system, way, j, no_motion, no_force) < (overcome.contains(j) ? 0 : 1))
       found.push_back({.contact = j, .mode = sticks});
   }
-  const double tolerance = std::max(bound_tolerance(tools, corner), mirror_images);
+  const double tolerance = bound_tolerance(tools, corner);
   for (Index guard = contacts; guard < along.rates.size(); ++guard) {
-    if (along.values[guard] > tolerance || along.rates[guard] >= -tools.options.guard_tolerance * most_force) continue;
+    if (!is_reached(along.values[guard], along.rates[guard], tolerance) ||
+        along.rates[guard] >= -tools.options.guard_tolerance * most_force)
+      continue;
     const auto beyond = system.beyond_friction_bound(active_set, guard);
     const auto has_ended = [&](const BoundContact& choice) {
       return choice.ended && choice.contact == beyond->contact;
@@ -183,8 +189,7 @@ void add_way(const Metric& open_metric, const TraceTools& tools, const Corner& c
   const auto slips_of = [&](const Continuation& one) { return tools.system.slipping(one.state.active_set).size(); };
   const Direction motion = motion_along(tools, corner, way.state, way.direction);
   for (Continuation& known : ways) {
-    const bool same =
-        open_metric.inner(motion_along(tools, corner, known.state, known.direction), motion) > same_motion;
+    const bool same = open_metric.inner(motion_along(tools, corner, known.state, known.direction), motion) > same_way;
     if (!same || slips_of(way) == slips_of(known)) continue;
     if (slips_of(way) < slips_of(known)) known = std::move(way);
     return;
@@ -280,6 +285,18 @@ bool unloads(const Continuation& way, const std::vector<BoundContact>& choices, 
   return true;
 }
 
+// Whether two walls would hold one point by friction: four forces, of which equilibrium determines two.
+bool would_hold_twice(const System& system, const ActiveSet& active_set, const std::vector<BoundContact>& choices) {
+  const auto touches = [&](Index j) {
+    return system.mode(active_set, j) != ContactMode::open ||
+           std::any_of(choices.begin(), choices.end(), [j](const BoundContact& other) { return other.contact == j; });
+  };
+  for (const BoundContact& choice : choices)
+    for (Index j = 0; j < static_cast<Index>(active_set.contacts()); ++j)
+      if (choice.touches && j != choice.contact && system.share_point(j, choice.contact) && touches(j)) return true;
+  return false;
+}
+
 std::string event_place(const TraceTools& tools, const Corner& corner, const std::vector<BoundContact>& choices) {
   return choices.empty() ? std::string() : tools.system.watched_place(corner.at.state, choices.front().contact);
 }
@@ -373,6 +390,11 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
                   .detail = with_place("the contacts change again and again at one point; use more elements", place)};
     return passed;
   }
+  if (would_hold_twice(tools.system, corner.at.state.active_set, choices)) {
+    passed.end = {.reason = EndReason::not_modelled,
+                  .detail = with_place("two frictions at one end are not determined by equilibrium", place)};
+    return passed;
+  }
   const double sense = corner.at.tangent.dlambda < 0.0 ? -1.0 : 1.0;
   std::size_t combined = 1;
   for (const BoundContact& choice : choices) combined = std::min(combined * choice.modes.size(), most_combined + 1);
@@ -391,7 +413,7 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
     return open_metric.inner(motion_along(tools, corner, way.state, way.direction), incoming);
   };
   std::erase_if(ways, [&](const Continuation& way) {
-    return (!corner.begins_branch && cosine(way) < -same_motion) || unloads(way, choices, sense);
+    return (!corner.begins_branch && cosine(way) < -same_way) || unloads(way, choices, sense);
   });
   const auto turns = [&](const Continuation& way) { return way.direction.dlambda * sense < 0.0; };
   if (corner.begins_branch && !std::all_of(ways.begin(), ways.end(), turns)) std::erase_if(ways, turns);
@@ -461,6 +483,8 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
                                    .unstable = way.unstable,
                                    .taken = &way == &taken});
   passed.events = events_between(tools, corner, at, event);
+  for (const Event& change : passed.events)
+    event.guards.insert(event.guards.end(), change.guards.begin(), change.guards.end());
   if (!corner.begins_branch) add_turns(tools, corner.signs, at, event, passed.events);
   passed.at = std::move(at);
   return passed;

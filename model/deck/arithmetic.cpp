@@ -76,6 +76,17 @@ void Arithmetic::report_cycles(Findings& findings) const {
   }
 }
 
+std::vector<std::string> Arithmetic::known_words() const {
+  std::vector<std::string> known = words_of_formulas();
+  for (const auto& [name, variable] : variables_) known.push_back(name);
+  return known;
+}
+
+bool Arithmetic::may_mean_a_variable(const std::string& word) const {
+  const std::vector<std::string> known = known_words();
+  return std::find(known.begin(), known.end(), word) != known.end() || !nearest(word, known).empty();
+}
+
 Arithmetic::Outcome Arithmetic::outcome(const std::string& formula) const {
   Outcome outcome;
   std::string unknown;
@@ -86,9 +97,7 @@ Arithmetic::Outcome Arithmetic::outcome(const std::string& formula) const {
     return found == variables_.end() ? std::nullopt : found->second.value;
   });
   if (unknown.empty() || unknown.size() > most_of_a_formula) return outcome;
-  std::vector<std::string> known = words_of_formulas();
-  for (const auto& [name, variable] : variables_) known.push_back(name);
-  const std::string near = nearest(unknown, known);
+  const std::string near = nearest(unknown, known_words());
   outcome.result.cure =
       near.empty() ? "add " + unknown + " to [variables], or write a number" : "did you mean " + near + "?";
   return outcome;

@@ -26,6 +26,9 @@ class Arithmetic {
   /// that follows from a variable that is wrong.
   std::optional<double> number(const Value& formula, const std::string& key, Findings& findings);
 
+  /// Whether a word is that of a variable, or near one: it is a formula.
+  bool may_mean_a_variable(const std::string& word) const;
+
   /// All that number() has computed.
   const Formulas& formulas() const { return formulas_; }
 
@@ -42,6 +45,7 @@ class Arithmetic {
   };
 
   Outcome outcome(const std::string& formula) const;
+  std::vector<std::string> known_words() const;
   void compute_variables();
 
   std::map<std::string, Variable> variables_{};

@@ -164,6 +164,11 @@ std::optional<double> Cursor::number_in(const Value& value, const std::string& p
                                         const std::string& wanted) {
   const bool is_number = value.kind == Value::Kind::integer || value.kind == Value::Kind::number;
   if (is_number && std::isfinite(value.number) && requirement.holds(value.number)) return value.number;
+  if (value.kind == Value::Kind::string && requirement.no_number != nullptr && is_name(value.string) &&
+      number_in_quotes(value).empty() && !(arithmetic_ != nullptr && arithmetic_->may_mean_a_variable(value.string))) {
+    findings_.add(value.position, path, requirement.no_number, "");
+    return std::nullopt;
+  }
   std::string cure = "give " + wanted;
   const std::string number_meant = number_in_quotes(value);
   if (!number_meant.empty()) cure = "write " + number_meant + " without quotes";
@@ -177,7 +182,10 @@ std::optional<double> Cursor::number_in(const Value& value, const std::string& p
   } else if (!std::isfinite(*number)) {
     findings_.add(value.position, path, text + " is not a finite number", cure);
   } else if (!requirement.holds(*number)) {
-    findings_.add(value.position, path, text + " is out of range", cure);
+    if (requirement.violated != nullptr)
+      findings_.add(value.position, path, requirement.violated, "");
+    else
+      findings_.add(value.position, path, text + " is out of range", cure);
   } else {
     return number;
   }

@@ -48,11 +48,17 @@ class Findings {
 struct Requirement {
   bool (*holds)(double);
   const char* words;
+  const char* violated = nullptr;   ///< said of a number that does not; null: that it is out of range
+  const char* no_number = nullptr;  ///< said of a word in place of the number; null: as of every formula
 };
 
 inline constexpr Requirement any_number{[](double) { return true; }, "a number"};
 inline constexpr Requirement positive{[](double v) { return v > 0.0; }, "a number greater than 0"};
 inline constexpr Requirement not_negative{[](double v) { return v >= 0.0; }, "a number of at least 0"};
+inline constexpr Requirement coefficient_of_friction{
+    [](double v) { return v >= 0.0; }, "a number of at least 0",
+    "friction must not be negative: it is the ratio of the greatest friction force to the contact force",
+    "friction is a number, e.g. 0.3; for a contact that never slips give a large one, e.g. 1e3"};
 inline constexpr Requirement not_zero{[](double v) { return v != 0.0; }, "a number other than 0"};
 
 struct IntegerRange {

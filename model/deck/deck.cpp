@@ -276,10 +276,13 @@ bool acts_in(const Spring& spring, Dof direction) {
   return std::visit(Acts{direction}, spring.kind);
 }
 
-double friction_of(const Deck& deck, const Wall& wall, const std::string& member) {
+double friction_of(const Deck& deck, const Wall& wall, const std::string& member, double fraction) {
+  const Member* const of = find(deck.members, member);
+  const std::string point = of == nullptr ? "" : fraction == 0.0 ? of->from : fraction == 1.0 ? of->to : "";
+  const auto fits = [](const std::string& asked, const std::string& is) { return asked.empty() || asked == is; };
   double coefficient = wall.friction;
   for (const FrictionPair& pair : deck.frictions)
-    if ((pair.wall.empty() || pair.wall == wall.name) && (pair.member.empty() || pair.member == member))
+    if (fits(pair.wall, wall.name) && fits(pair.member, member) && fits(pair.point, point))
       coefficient = pair.coefficient;
   return coefficient;
 }
@@ -289,7 +292,8 @@ bool has_friction(const Deck& deck) {
     return std::any_of(deck.members.begin(), deck.members.end(), [&](const Member& member) {
       const bool concerns = wall.members.empty() ||
                             std::find(wall.members.begin(), wall.members.end(), member.name) != wall.members.end();
-      return concerns && friction_of(deck, wall, member.name) > 0.0;
+      const auto is_rough_at = [&](double fraction) { return friction_of(deck, wall, member.name, fraction) > 0.0; };
+      return concerns && (is_rough_at(0.0) || is_rough_at(0.5) || is_rough_at(1.0));
     });
   });
 }

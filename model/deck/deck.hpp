@@ -349,6 +349,8 @@ enum class Component {
   force_x,
   force_z,
   friction_force,
+  friction_use,
+  dissipation,
   slip,
   gap,
   contact_start,
@@ -368,6 +370,12 @@ constexpr bool is_extreme(Component component) {
   return component == Component::max_moment || component == Component::max_stress ||
          component == Component::utilisation || component == Component::greatest_pressure ||
          component == Component::least_pressure;
+}
+
+/// Whether it is of the friction of a wall.
+constexpr bool is_of_friction(Component component) {
+  return component == Component::friction_force || component == Component::friction_use ||
+         component == Component::dissipation || component == Component::slip;
 }
 
 /// Whether it is of the pressure of a foundation.
@@ -572,8 +580,9 @@ struct PointsOfContact {
 };
 PointsOfContact points_of_contact(const Deck& deck);
 
-/// The coefficient of friction of a wall on a member.
-double friction_of(const Deck& deck, const Wall& wall, const std::string& member);
+/// The coefficient of friction of a wall on a member, at a fraction of its length: its ends are points, which pairs may
+/// name.
+double friction_of(const Deck& deck, const Wall& wall, const std::string& member, double fraction);
 
 /// Whether a wall has friction on a member.
 bool has_friction(const Deck& deck);

@@ -289,7 +289,9 @@ void name_key(Keys& keys, const Deck& deck, Monitor& monitor) {
                  "not one of `branch`, `step`, `arc`, `lambda`, `unstable`, `stability`, `contacts`, `energy`, "
                  "`iterations`, `event`"))
     return;
-  const bool reserved = std::find(reserved_names.begin(), reserved_names.end(), monitor.name) != reserved_names.end();
+  const bool of_friction = monitor.name == "slipping" || monitor.name == "dissipation";
+  const bool reserved = std::find(reserved_names.begin(), reserved_names.end(), monitor.name) != reserved_names.end() ||
+                        (of_friction && has_friction(deck));
   if (!is_name(monitor.name)) {
     keys.report("name", in_quotes(monitor.name, 60) + " is no name", "use letters, digits, _ and - only");
   } else if (reserved) {
@@ -335,6 +337,10 @@ Owner owner_of(Component component) {
       return {"a wall or a spring", "write `wall` or `spring` instead, or give reaction-x or reaction-z of a place"};
     case Component::friction_force:
       return {"a wall", "write `wall` instead, or give both `at` and `wall`"};
+    case Component::friction_use:
+      return {"a wall", "write `wall` instead"};
+    case Component::dissipation:
+      return {"a wall or the whole structure", "write `wall` instead, or leave out `at` for all walls"};
     case Component::slip:
     case Component::gap:
       return {"a place and a wall", "give both `at` and `wall`"};
@@ -387,8 +393,10 @@ bool check_owner(Keys& keys, const Monitor& monitor) {
     case Monitored::wall:
       if (is_contact_edge(component) && monitor.member.empty())
         return refuse(word + " is a place along a member", "add `member`: the one that the wall touches");
-      if (component == Component::slip) return refuse("slip is that of a place", "give at");
-      return is_force(component) || is_contact_edge(component) || component == Component::friction_force ||
+      if (component == Component::dissipation && !monitor.member.empty())
+        return refuse("dissipation is that of a wall on all its members", "leave out `member`");
+      if (component == Component::slip) return refuse("slip is that of a place: give at", "");
+      return is_force(component) || is_contact_edge(component) || is_of_friction(component) ||
              refuse("a wall has no " + word, component == Component::gap ? "add `at`: the place of which it is the gap"
                                                                          : "give force-x, force-z or moment");
     case Monitored::gap:
@@ -401,7 +409,7 @@ bool check_owner(Keys& keys, const Monitor& monitor) {
              refuse("a member as a whole has no " + word,
                     "give max-moment, max-stress or utilisation, or write `at` with a place of the member");
     case Monitored::structure:
-      if (is_stress(component)) return true;
+      if (is_stress(component) || component == Component::dissipation) return true;
       keys.report("at", "the monitor has none of `at`, `wall`, `member` and `spring`", what_to_monitor);
       return false;
     case Monitored::spring:
@@ -460,7 +468,7 @@ void check_stress(Keys& keys, const Deck& deck, const Monitor& monitor) {
 
 void check_monitored(Keys& keys, const Deck& deck, const Monitor& monitor) {
   if (!check_owner(keys, monitor)) return;
-  const bool of_friction = monitor.component == Component::friction_force || monitor.component == Component::slip;
+  const bool of_friction = is_of_friction(monitor.component);
   if (of_friction && !has_friction(deck))
     keys.report("component", "no wall of the deck has friction", "give the wall `friction`");
   if (monitor.of() == Monitored::place) check_face(keys, deck, monitor);

@@ -112,23 +112,41 @@ void wall_keys(Keys& keys, Wall& wall, std::unordered_set<std::string>& taken, c
               "allowed overlap with the undeformed structure. The wall starts that far back and moves into place while "
               "the constant "
               "loads are applied");
-  keys.number(optional("friction"), wall.friction, unit::none, not_negative,
+  keys.number(optional("friction"), wall.friction, unit::none, coefficient_of_friction,
               "coefficient μ of Coulomb friction: a contact sticks up to a friction force μ p, and slips at it");
   keys.part("motion", wall.motion, [&](WallMotion& motion) { motion_keys(keys, motion); });
   check_faces(keys, deck, wall);
 }
 
+template <class Part>
+std::vector<std::string> names_of(const std::vector<Part>& parts) {
+  std::vector<std::string> names;
+  for (const Part& part : parts) names.push_back(part.name);
+  return names;
+}
+
+// Reports a name that none of the deck's parts has.
+void check_part(Keys& keys, const char* key, const std::string& kind, const std::string& name,
+                const std::vector<std::string>& known) {
+  if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
+  const std::string near = nearest(name, known);
+  keys.report(key, "there is no " + kind + " " + in_quotes(name, 60),
+              near.empty() ? "name one of the deck" : "did you mean " + in_quotes(near, 60) + "?");
+}
+
 void friction_keys(Keys& keys, const Deck& deck, FrictionPair& pair) {
-  keys.text(optional("wall", "all"), pair.wall, "name of the wall");
-  keys.text(optional("member", "all"), pair.member, "name of the member");
-  keys.number("coefficient", pair.coefficient, unit::none, not_negative, "in place of the wall's `friction`");
+  keys.text(optional("wall", "all"), pair.wall, "name of a wall");
+  keys.text(optional("member", "all"), pair.member, "name of a member");
+  keys.text(optional("point", "all"), pair.point, "end point of a member");
+  keys.number("coefficient", pair.coefficient, unit::none, coefficient_of_friction, "instead of the wall's `friction`");
   if (!keys.reads()) return;
-  if (pair.wall.empty() && pair.member.empty())
-    keys.report("coefficient", "says not what it is for", "name a wall, a member or both");
-  if (!pair.wall.empty() && find(deck.walls, pair.wall) == nullptr)
-    keys.report("wall", "there is no wall " + in_quotes(pair.wall, 60), "name a wall of the deck");
-  if (!pair.member.empty() && find(deck.members, pair.member) == nullptr)
-    keys.report("member", "there is no member " + in_quotes(pair.member, 60), "name a member of the deck");
+  if (pair.wall.empty() && pair.member.empty() && pair.point.empty())
+    keys.report("coefficient", "say what it is for: wall, member or point", "");
+  std::vector<std::string> ends;
+  for (const Member& member : deck.members) ends.insert(ends.end(), {member.from, member.to});
+  check_part(keys, "wall", "wall", pair.wall, names_of(deck.walls));
+  check_part(keys, "member", "member", pair.member, names_of(deck.members));
+  check_part(keys, "point", "end of a member", pair.point, ends);
 }
 
 void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
@@ -142,6 +160,8 @@ void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
     const PointsOfContact found = points_of_contact(deck);
     keys.comment("points = " + in_quotes(text_of(contact_points_words, found.points)) + ": " + found.why);
   }
+  keys.word(optional("friction_at"), contact.friction_at, friction_at_words,
+            "`\"touch\"`: friction acts on the face; `\"axis\"`: on the axis");
   keys.number(optional("penalty", "none"), contact.penalty, unit::stress, positive,
               "force per length of axis and of penetration; > 0, required by `\"penalty\"` and `\"augmented\"`");
   keys.number(optional("gap_tolerance"), contact.gap_tolerance, unit::length, positive,

@@ -156,6 +156,7 @@ struct FrictionPair {
   Position position{};
   std::string wall{};    ///< empty: every wall
   std::string member{};  ///< empty: every member
+  std::string point{};   ///< at which a member ends; empty: everywhere
   double coefficient = 0.0;
 
   bool operator==(const FrictionPair&) const = default;
@@ -163,11 +164,15 @@ struct FrictionPair {
 
 enum class ContactPoints { nodes, moving };
 
+/// Where friction acts on the section.
+enum class FrictionAt { touch, axis };
+
 struct Contact {
   ContactLaw::Method method = ContactLaw::Method::rigid;
   std::optional<ContactPoints> points{};  ///< empty: moving for euler-bernoulli and elastica, else nodes
   std::optional<double> penalty{};        ///< 1/μ, there for every method that needs it [force/length²]
-  double gap_tolerance = 1e-10;           ///< [length]
+  FrictionAt friction_at = FrictionAt::touch;
+  double gap_tolerance = 1e-10;  ///< [length]
 
   bool operator==(const Contact&) const = default;
 };

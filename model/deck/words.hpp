@@ -76,7 +76,8 @@ inline constexpr Words<ContactLaw::Method, 3> contact_method_words{{{"multiplier
                                                                     {"augmented", ContactLaw::Method::augmented}}};
 inline constexpr Words<ContactPoints, 2> contact_points_words{
     {{"nodes", ContactPoints::nodes}, {"moving", ContactPoints::moving}}};
-inline constexpr Words<Component, 25> component_words{{{"x", Component::x},
+inline constexpr Words<FrictionAt, 2> friction_at_words{{{"touch", FrictionAt::touch}, {"axis", FrictionAt::axis}}};
+inline constexpr Words<Component, 27> component_words{{{"x", Component::x},
                                                        {"z", Component::z},
                                                        {"rotation", Component::rotation},
                                                        {"face-above-z", Component::face_above_z},
@@ -89,6 +90,8 @@ inline constexpr Words<Component, 25> component_words{{{"x", Component::x},
                                                        {"force-x", Component::force_x},
                                                        {"force-z", Component::force_z},
                                                        {"friction-force", Component::friction_force},
+                                                       {"friction-use", Component::friction_use},
+                                                       {"dissipation", Component::dissipation},
                                                        {"slip", Component::slip},
                                                        {"gap", Component::gap},
                                                        {"contact-start", Component::contact_start},

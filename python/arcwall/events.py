@@ -34,8 +34,12 @@ class Contact(Value):
     member: str  #: name of the member
     fraction: float  #: fraction of the member's length, 0 to 1; nan if unknown
     x: float  #: current coordinate x [length]
-    force: float | None = None  #: force along the wall's normal [force]; None in events
+    force: float | None = None  #: force along the wall's normal [force]; in events None without friction
     pressure: float | None = None  #: contact pressure [force/length]; None for a point force
+    state: str | None = None  #: ``stick``, ``slip+`` or ``slip-`` along the wall's tangent; None without friction
+    friction: float | None = None  #: friction force T along the wall's tangent [force]; None without friction
+    slip: float | None = None  #: slip since it closed [length]; None without friction, and in events
+    anchor: float | None = None  #: x of the point of the wall where it sticks [length]; else None
 
 
 @dataclass(frozen=True, repr=False)
@@ -229,6 +233,26 @@ class Event(Value):
     #: number of unstable directions under load control, if λ prescribes displacements; else None
     unstable_load_control: int | None = None
 
+    @property
+    def contact(self) -> Contact | None:
+        """First contact that changes; None if none does."""
+        return self.contacts[0] if self.contacts else None
+
+    @property
+    def sense(self) -> int | None:
+        """Slip of that contact after the event: 1 along the wall's tangent, -1 against it, 0 if it sticks, else None."""
+        return {"slip+": 1, "slip-": -1, "stick": 0}.get((self.contact and self.contact.state) or "")
+
+    @property
+    def T(self) -> float | None:
+        """Friction force of that contact [force]; None without friction."""
+        return self.contact and self.contact.friction
+
+    @property
+    def p(self) -> float | None:
+        """Contact force of that contact [force]; None without friction."""
+        return self.contact and self.contact.force
+
 
 @dataclass(frozen=True, repr=False)
 class Branch(Value):
@@ -382,6 +406,7 @@ KINDS = (
     "contact-limit-point",
     "turning-point",
     "value-crossing",
+    "reversal",
     "branch-point",
     "user",
 )
@@ -458,6 +483,18 @@ def searches_of(json: Mapping[str, Any] | None) -> tuple[Search, ...]:
     )
 
 
+def _changed_contact(json: Mapping[str, Any]) -> Contact:
+    return Contact(
+        json["wall"],
+        json["member"],
+        _float(json["fraction"]),
+        _float(json["x"]),
+        force=json.get("force"),
+        state=json.get("state"),
+        friction=json.get("friction"),
+    )
+
+
 def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None) -> Event:
     """Read an event of ``events.json`` at the given point of its path."""
     return Event(
@@ -473,7 +510,7 @@ def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None
         unstable_after=json["unstable_after"],
         residual=_float(json["residual"]),
         lambda_uncertainty=_float(json["lambda_uncertainty"]),
-        contacts=tuple(Contact(c["wall"], c["member"], _float(c["fraction"]), _float(c["x"])) for c in json.get("contact", ())),
+        contacts=tuple(_changed_contact(c) for c in json.get("contact", ())),
         sensitivity=json.get("sensitivity", {}),
         monitor_sensitivity=json.get("monitor_sensitivity", {}),
         no_sensitivity=json.get("no_sensitivity", {}),
@@ -519,7 +556,10 @@ def point_of(json: Mapping[str, Any], index: int) -> Point:
         monitors=_floats(json["monitors"]),
         unstable=json["unstable"],
         stability=json["stability"],
-        contacts=tuple(Contact(wall, member, at, x, force, p) for (wall, member, at), x, force, p in json["forces"]),
+        contacts=tuple(
+            Contact(wall, member, at, x, force, p, *(friction or ()))
+            for (wall, member, at), x, force, p, friction in json["forces"]
+        ),
         energy=json["energy"],
         iterations=json["iterations"],
         residual=json["residual"],

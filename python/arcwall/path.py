@@ -18,6 +18,7 @@ from .events import Point, Search, point_of, searches_of
 from .shapes import Shape, shape_of
 
 if TYPE_CHECKING:
+    import pandas as pd
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
 
@@ -109,6 +110,63 @@ class Path(Curve):
     def points(self) -> Sequence[Point]:
         """Points as `Point` objects, with their contacts."""
         return _Points(self._run)
+
+    @property
+    def contacts(self) -> pd.DataFrame:
+        """Closed contacts of all points as a new pandas DataFrame, as in ``contacts.csv``; needs pandas.
+
+        With friction it has the columns ``friction``, ``state``, ``slip`` and ``anchor``.
+
+        Examples
+        --------
+        >>> path = arcwall.Deck.load("channel.toml").trace()
+        >>> list(path.contacts.columns[:4]), len(path.contacts) == path["contacts"].sum()
+        (['branch', 'step', 'lambda', 'wall'], True)
+        """
+        import pandas as pd
+
+        names = ["wall", "member", "fraction", "x", "force", "pressure"]
+        if "dissipation" in self.columns:
+            names += ["friction", "state", "slip", "anchor"]
+        rows = [
+            (point.branch, point.step, point.lam, *(getattr(contact, name) for name in names))
+            for point in self.points
+            for contact in point.contacts
+        ]
+        return pd.DataFrame(rows, columns=["branch", "step", "lambda", *names])
+
+    def loop_work(self, stage_a: str, stage_b: str) -> float:
+        """Return the work lost in friction from the start of one load step to the end of another.
+
+        Over a closed loop it is the work that the driving load or displacement does.
+
+        Parameters
+        ----------
+        stage_a, stage_b : str
+            Names of the first and the last load step.
+
+        Returns
+        -------
+        float
+            Work [force·length].
+
+        Raises
+        ------
+        ValueError
+            If the path has no friction, or no points of a load step, or if they are in the other order.
+        """
+        if "dissipation" not in self.columns:
+            raise ValueError("the path has no friction, so no loop has work")
+        rows = []
+        for stage in (stage_a, stage_b):
+            of = np.flatnonzero([name == stage for name in self["stage"]]) if "stage" in self.columns else []
+            if not len(of):
+                raise ValueError(f"the path has no points of a load step {stage!r}")
+            rows.append(of)
+        first, last = rows[0][0], rows[1][-1]
+        if last < first:
+            raise ValueError(f"load step {stage_b!r} comes before {stage_a!r}")
+        return float(self["dissipation"][last] - self["dissipation"][first])
 
     def tracing(self) -> Tracing:
         """Return an iterator that continues the path point by point.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "apps/output/path_lines.hpp"
+#include "model/dissipation.hpp"
 
 namespace arcwall::python {
 
@@ -39,6 +40,8 @@ py::object column(const Record& record, const std::string& name) {
   if (name == "lambda") return numbers<double>(record, [](P at) { return at.lambda; });
   if (name == "unstable") return numbers<double>(record, [](P at) { return or_nan(at.count.unstable); });
   if (name == "contacts") return numbers<Integer>(record, [](P at) { return at.contacts; });
+  if (name == "slipping") return numbers<Integer>(record, [](P at) { return slipping_contacts(at); });
+  if (name == "dissipation") return numbers<double>(record, [](P at) { return total_dissipation(at); });
   if (name == "energy") return numbers<double>(record, [](P at) { return at.energy; });
   if (name == "iterations") return numbers<Integer>(record, [](P at) { return at.iterations; });
   if (name == "residual") return numbers<double>(record, [](P at) { return at.residual; });
@@ -67,8 +70,11 @@ py::list lines(const Record& record) {
 }
 
 std::vector<std::string> column_names(const Record& record) {
-  std::vector<std::string> names{"branch",    "step",     "arc",    "lambda",     "unstable",
-                                 "stability", "contacts", "energy", "iterations", "event"};
+  std::vector<std::string> names{"branch", "step", "arc", "lambda", "unstable", "stability", "contacts"};
+  if (record.has_friction) names.emplace_back("slipping");
+  names.emplace_back("energy");
+  if (record.has_friction) names.emplace_back("dissipation");
+  names.insert(names.end(), {"iterations", "event"});
   if (record.moves_supports) names.emplace_back("unstable_load_control");
   if (!record.stages.empty()) names.emplace_back("stage");
   return names;

@@ -126,13 +126,19 @@ const RecordPoint& point_at(const Run& run, Index point) {
   return points[static_cast<std::size_t>(point)];
 }
 
+// State, T, slip and anchor; none of a contact without friction.
+py::object friction(const std::optional<RecordFriction>& of) {
+  if (!of) return py::none();
+  return py::make_tuple(std::string(to_text(of->mode)), of->force, of->slip, of->anchor);
+}
+
 py::dict point(const Run& run, Index index) {
   const RecordPoint& at = point_at(run, index);
   py::dict dict = to_python(point_json(run.record(), at)).cast<py::dict>();
   dict["residual"] = at.residual;
   py::list forces;
   for (const RecordForce& force : at.forces)
-    forces.append(py::make_tuple(label(force.label), force.x, force.force, force.pressure));
+    forces.append(py::make_tuple(label(force.label), force.x, force.force, force.pressure, friction(force.friction)));
   dict["forces"] = forces;
   return dict;
 }

@@ -8,104 +8,12 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "model/session.hpp"
+#include "model/dissipation.hpp"
+#include "tests/model/friction_decks.hpp"
 
 // Contact with Coulomb friction at nodes and free ends. The references of blocks on springs and of a node on an incline
 // are closed forms; the strips are shot elasticas (extensible, θ′ = M/EI, fixed steps of order 8), all digits given.
 namespace arcwall::friction_test {
-
-namespace {
-
-Session session_of(const std::string& text) {
-  return Session({.deck = "friction.toml", .deck_text = "title = \"Friction\"\n" + text});
-}
-
-Session run_of(const std::string& text) {
-  Session session = session_of(text);
-  while (session.next() != nullptr) {
-  }
-  EXPECT_EQ(session.problem(), "");
-  return session;
-}
-
-std::vector<double> lambdas(const Session& session, EventKind kind, Index branch) {
-  std::vector<double> found;
-  for (const RecordEvent& event : session.events())
-    if (event.kind == kind && event.branch == branch) found.push_back(event.lambda);
-  return found;
-}
-
-EndReason reason(const Session& session) { return session.record().branches.back().end->reason; }
-
-double monitor_at_end(const Session& session, std::size_t which) { return session.points().back().monitors[which]; }
-
-void expect_law(const Session& session) {
-  for (const RecordPoint& point : session.points())
-    for (const RecordForce& contact : point.forces)
-      if (contact.friction) {
-        EXPECT_LE(std::abs(contact.friction->force),
-                  contact.friction->coefficient * contact.force * (1.0 + 1e-9) + 1e-12);
-      }
-}
-
-// Whether a contact slips against the wall's tangent.
-bool slips_back(const RecordPoint& point) {
-  return std::any_of(point.forces.begin(), point.forces.end(), [](const RecordForce& contact) {
-    return contact.friction && contact.friction->mode == ContactMode::slips_backward;
-  });
-}
-
-const std::string bars = R"(
-[material.m]
-E = 210.0
-[section.s]
-shape = "general"
-A = 1.0
-I = 1.0
-[support]
-A = ["z"]
-[[prescribed]]
-at = "A"
-x = 1.0
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = { type = "flat", z = 0.0 }
-friction = 0.3
-[[monitor]]
-name = "F"
-at = "A"
-component = "reaction-x"
-)";
-
-std::string bar(const std::string& name, const std::string& from, const std::string& to) {
-  return fmt::format(
-      "[member.{}]\nfrom = \"{}\"\nto = \"{}\"\ntheory = \"truss\"\nstrain = \"engineering\"\n"
-      "material = \"m\"\nsection = \"s\"\nelements = 1\n",
-      name, from, to);
-}
-
-std::string weight(const std::string& at, double weight) {
-  return fmt::format("[[load]]\nat = \"{}\"\nforce = [0.0, {}]\nconstant = true\n", at, -weight);
-}
-
-std::string stage(const std::string& name, const std::string& drives, double step, double low, double high) {
-  return fmt::format("[[stage]]\nname = \"{}\"\ndrives = [\"{}\"]\nstep = {}\nstop = {{ lambda = [{}, {}] }}\n", name,
-                     drives, step, low, high);
-}
-
-// A block of weight 1 on a spring of stiffness 21, dragged to and fro.
-std::string block(double friction) {
-  std::string text = bars + "[point]\nA = [0.0, 0.0]\nB = [10.0, 0.0]\n" + bar("bar", "A", "B") + weight("B", 1.0) +
-                     stage("out", "prescribed.0", 0.005, -1.0, 0.05) +
-                     stage("back", "prescribed.0", -0.005, -0.1, 1.0) +
-                     stage("again", "prescribed.0", 0.005, -1.0, 0.1);
-  text.replace(text.find("friction = 0.3"), 14, fmt::format("friction = {}", friction));
-  return text;
-}
-
-}  // namespace
 
 TEST(Friction, BlockOnASpringSlipsAndSticks) {
   const Session session = run_of(block(0.3));
@@ -140,46 +48,6 @@ TEST(Friction, TwoBlocksSlipOneAfterTheOther) {
 }
 
 namespace {
-
-// A node at the origin on springs k_x = 1, k_z = 10, on a rough incline of 40°, pressed down by λ from 0 to 1, then
-// pulled by λ < 0 along x.
-std::string incline(double friction) {
-  const double angle = 40.0 * std::numbers::pi / 180.0;
-  return fmt::format(R"(
-[material.m]
-E = 1e-9
-[section.s]
-shape = "general"
-A = 1.0
-I = 1.0
-[point]
-O = [0.0, 0.0]
-far = [0.0, 1.0]
-[support]
-far = ["x", "z"]
-[[spring]]
-at = "O"
-stiffness = {{ x = 1.0, z = 10.0 }}
-[[load]]
-at = "O"
-force = [0.0, -1.0]
-[[load]]
-at = "O"
-force = [1.0, 0.0]
-[[wall]]
-name = "slope"
-members = ["bar"]
-contact_surface = "axis"
-outline = {{ type = "half-plane", point = [0.0, 0.0], normal = [{}, {}] }}
-friction = {}
-[[monitor]]
-name = "x"
-at = "O"
-component = "x"
-)",
-                     -std::sin(angle), std::cos(angle), friction) +
-         bar("bar", "O", "far") + stage("press", "load.0", 0.1, -1.0, 1.0) + stage("pull", "load.1", -0.02, -0.4, 1.0);
-}
 
 constexpr double opening = -0.1191753592594;  // −(k_x/k_z) cot 40°
 
@@ -223,52 +91,6 @@ TEST(Friction, SlipThatTheLoadDoesNotFollowTurnsTheLoad) {
       EXPECT_EQ(point.count.unstable, Index{1});
     }
 }
-
-namespace {
-
-// A strip that a clamp at (0, sin 60°) points down to a floor, whose tip touches it at rest; the clamp goes down.
-std::string strip(double friction, const std::string& stages, const std::string& drag = "") {
-  return fmt::format(R"(
-[material.m]
-E = 10000.0
-[section.s]
-shape = "general"
-A = 1.0
-I = 1e-4
-[point]
-clamp = [0.0, 0.8660254037844386]
-tip = [0.5, 0.0]
-[member]
-strip = {{ from = "clamp", to = "tip", theory = "elastica", material = "m", section = "s", elements = 20 }}
-[support]
-{}
-[[prescribed]]
-at = "clamp"
-z = -1.0
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = {{ type = "flat", z = 0.0 }}
-friction = {}
-[[monitor]]
-name = "x"
-at = "tip"
-component = "x"
-[[monitor]]
-name = "T"
-wall = "floor"
-component = "force-x"
-[[monitor]]
-name = "p"
-wall = "floor"
-component = "force-z"
-)",
-                     drag.empty() ? "clamp = [\"x\", \"rotation\"]" : "clamp = [\"rotation\"]", friction) +
-         drag + stages;
-}
-
-}  // namespace
 
 // With μ < cot 60° it slips from the start; dragged on, its shape is constant; turned, it sticks for 0.00245442295107.
 TEST(Friction, DraggedStripSlipsSticksAndSlipsBack) {
@@ -335,6 +157,77 @@ TEST(Friction, AWallWithoutFrictionIsAsBefore) {
   for (std::size_t i = 0; i < zero.points().size(); ++i) EXPECT_EQ(zero.points()[i].state.x, none.points()[i].state.x);
 }
 
+// Natural curvature 1, EA/EI = 10⁵, shot: 0.625382563985 and 1.666264845603 at 0.1 and 0.3. Nothing rubs.
+TEST(Friction, RingOnARoughPlateHasNone) {
+  const Session session = run_of(R"(
+[material.m]
+E = 1.0
+[section.s]
+shape = "general"
+A = 1e5
+I = 1.0
+[point]
+bottom = [0.0, -1.0]
+top = [0.0, 1.0]
+[member]
+right = { from = "bottom", to = "top", via = [1.0, 0.0], theory = "elastica", material = "m", section = "s", elements = 24 }
+left = { from = "top", to = "bottom", via = [-1.0, 0.0], theory = "elastica", material = "m", section = "s", elements = 24 }
+[support]
+bottom = ["rotation"]
+top = ["x", "rotation"]
+[[prescribed]]
+at = "top"
+z = -1.0
+[[wall]]
+name = "floor"
+side = "below"
+contact_surface = "axis"
+profile = { type = "flat", z = -1.0 }
+friction = 0.5
+[[monitor]]
+name = "force"
+wall = "floor"
+component = "force-z"
+[[monitor]]
+name = "use"
+wall = "floor"
+component = "friction-use"
+[path]
+step = 0.01
+output_at = { lambda = [0.1] }
+[path.stop]
+lambda = [-1.0, 0.3]
+)");
+  EXPECT_EQ(reason(session), EndReason::stop);
+  for (const RecordPoint& point : session.points()) {
+    if (point.lambda == 0.1) EXPECT_NEAR(point.monitors[0], 0.625382563985, 1e-8);
+    if (point.lambda > 0.0) EXPECT_LE(point.monitors[1], 1e-7);
+    EXPECT_EQ(total_dissipation(point), 0.0);
+  }
+  EXPECT_EQ(session.points().back().lambda, 0.3);
+  EXPECT_NEAR(monitor_at_end(session, 0), 1.666264845603, 1e-8);
+}
+
+// The tip of a wire with another friction than its shaft: with 0.3 at the tip alone it slips as with 0.3 everywhere.
+TEST(Friction, APairMayNameAPoint) {
+  const std::string stages = stage("press", "prescribed.0", 0.0005, -1.0, 0.1);
+  const std::string pair = "[[friction]]\npoint = \"tip\"\ncoefficient = 0.3\n";
+  const Session all = run_of(strip(0.3, stages)), tip = run_of(strip(0.0, stages) + pair);
+  ASSERT_EQ(all.points().size(), tip.points().size());
+  for (std::size_t i = 0; i < all.points().size(); ++i) EXPECT_EQ(all.points()[i].monitors, tip.points()[i].monitors);
+}
+
+// What lies in a corner of two rough walls.
+TEST(Friction, TwoFrictionsAtOneEndAreNotDetermined) {
+  std::string text = block(0.3);
+  text +=
+      "[[wall]]\nname = \"stop\"\ncontact_surface = \"axis\"\nfriction = 0.3\n"
+      "outline = { type = \"half-plane\", point = [10.02, 0.0], normal = [-1.0, 0.0] }\n";
+  const Session session = run_of(text);
+  EXPECT_EQ(reason(session), EndReason::not_modelled);
+  EXPECT_NE(session.record().branches.back().end->detail.find("two frictions at one end"), std::string::npos);
+}
+
 TEST(Friction, DecksThatAskForMoreAreRejected) {
   const auto message = [](const std::string& text) -> std::string {
     try {
@@ -346,12 +239,37 @@ TEST(Friction, DecksThatAskForMoreAreRejected) {
   };
   const std::string good = strip(0.3, "[path]\nstep = 0.01\n[path.stop]\nlambda = [-1.0, 0.1]\n");
   EXPECT_EQ(message(good), "");
-  EXPECT_NE(message(good + "[contact]\npoints = \"moving\"\n").find("at nodes"), std::string::npos);
-  EXPECT_NE(message(good + "[contact]\nmethod = \"penalty\"\npenalty = 1.0\n").find("springs in place of walls"),
-            std::string::npos);
-  EXPECT_NE(message(good + "[[friction]]\nmember = \"stripp\"\ncoefficient = 0.1\n").find("no member"),
-            std::string::npos);
-  EXPECT_NE(message(good + "[[friction]]\ncoefficient = 0.1\n").find("what it is for"), std::string::npos);
+  const auto expect_said = [&](const std::string& text, const std::string& words) {
+    EXPECT_NE(message(text).find(words), std::string::npos) << message(text);
+  };
+  const auto with_friction = [&](const std::string& value) {
+    std::string text = good;
+    return text.replace(text.find("friction = 0.3"), 14, "friction = " + value);
+  };
+  const auto with_path = [&](const std::string& options) {
+    return strip(0.3, "[path]\nstep = 0.01\n" + options + "\n[path.stop]\nlambda = [-1.0, 0.1]\n");
+  };
+  expect_said(with_friction("-0.1"),
+              "friction must not be negative: it is the ratio of the greatest friction force to the contact force");
+  expect_said(with_friction("\"rough\""),
+              "friction is a number, e.g. 0.3; for a contact that never slips give a large one, e.g. 1e3");
+  expect_said(good + "[contact]\npoints = \"moving\"\n", "at nodes");
+  expect_said(good + "[contact]\nmethod = \"penalty\"\npenalty = 1.0\n",
+              "springs in place of walls have no friction; contact.method = \"multiplier\" has");
+  expect_said(good + "[[friction]]\nmember = \"stripp\"\ncoefficient = 0.1\n",
+              "there is no member \"stripp\"; did you mean \"strip\"?");
+  expect_said(good + "[[friction]]\npoint = \"top\"\ncoefficient = 0.1\n", "there is no end of a member \"top\"");
+  expect_said(good + "[[friction]]\ncoefficient = 0.1\n", "say what it is for: wall, member or point");
+  expect_said(good + "[[monitor]]\nname = \"s\"\nwall = \"floor\"\ncomponent = \"slip\"\n",
+              "slip is that of a place: give at");
+  expect_said(good + "[[monitor]]\nname = \"s\"\nwall = \"floor\"\nat = \"tip\"\ncomponent = \"dissipation\"\n",
+              "no dissipation");
+  expect_said(with_path("branches = \"jump\""), "it jumps; where it comes to rest depends on the motion");
+  expect_said(with_path("sensitivity = [\"wall.floor.friction\"]"),
+              "events behind the first slip depend on the way that led there");
+  const std::string lost = "[[monitor]]\nname = \"lost\"\ncomponent = \"dissipation\"\n";
+  expect_said(with_path("watch = [\"lost\"]") + lost, "no turning points");
+  expect_said(with_path("output_at = { lost = [0.1] }") + lost, "no value of \"lost\" can be solved for");
 }
 
 }  // namespace arcwall::friction_test

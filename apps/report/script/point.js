@@ -39,8 +39,10 @@ const most_rows = Math.min(shapes.reduce((most, { contacts }) => Math.max(most, 
 const show_shape = (shape) => {
   draw_stage(shape);
   const pressure_unit = data.force_unit && data.length_unit ? `${data.force_unit}/${data.length_unit}` : '';
-  const force = ([, , , size, pressure]) => with_unit(round(size, 5), data.force_unit) +
-    (pressure === null ? '' : `, ${with_unit(round(pressure, 5), pressure_unit)}`);
+  const friction = ([, , , , , state, T, p, use]) => (state === undefined ? ''
+    : `, ${state}: T = ${round(T, 5)}, p = ${round(p, 5)}, |T|/μp = ${round(use, 4)}`);
+  const force = (contact) => with_unit(round(contact[3], 5), data.force_unit) +
+    (contact[4] === null ? '' : `, ${with_unit(round(contact[4], 5), pressure_unit)}`) + friction(contact);
   const most = 5;
   const contacts = [...shape.contacts].sort((a, b) => b[3] - a[3]);
   const rows = contacts.slice(0, most).map((contact) =>

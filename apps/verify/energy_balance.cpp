@@ -1,0 +1,179 @@
+#include "apps/verify/energy_balance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace arcwall::verify {
+
+namespace {
+
+// The points of a smooth part of a branch, by their numbers in the record: the first and the last included.
+struct Piece {
+  std::size_t first = 0, last = 0;
+};
+
+std::vector<Piece> pieces_of(const Record& record, Index branch) {
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i < record.points.size(); ++i) {
+    const RecordPoint& point = record.points[i];
+    if (point.branch != branch) continue;
+    if (point.step > 0) pieces.back().last = i;
+    if (point.step == 0 || point.rates_after) pieces.push_back({.first = i, .last = i});
+  }
+  std::erase_if(pieces, [](const Piece& piece) { return piece.first == piece.last; });
+  return pieces;
+}
+
+// An integral over a step with the error of its quadrature.
+struct Quadrature {
+  double value = 0.0, error = 0.0;
+
+  Quadrature& operator+=(const Quadrature& other) {
+    value += other.value;
+    error += other.error;
+    return *this;
+  }
+};
+
+// A quantity at the points of a piece, with their arc lengths.
+using Samples = std::vector<double>;
+
+// Lagrange's polynomial through points [from, from + count), or its slope.
+double polynomial(const Samples& s, const Samples& f, std::size_t from, std::size_t count, double at, bool slope) {
+  double sum = 0.0;
+  for (std::size_t i = from; i < from + count; ++i) {
+    double basis = 1.0, of_slope = 0.0;
+    for (std::size_t j = from; j < from + count; ++j) {
+      if (j == i) continue;
+      of_slope = (of_slope * (at - s[j]) + basis) / (s[i] - s[j]);
+      basis *= (at - s[j]) / (s[i] - s[j]);
+    }
+    sum += f[i] * (slope ? of_slope : basis);
+  }
+  return sum;
+}
+
+// ∫ a db over the step behind point i, with polynomials through `count` points about it.
+double integral(const Samples& s, const Samples& a, const Samples& b, std::size_t i, std::size_t count) {
+  constexpr std::array<std::pair<double, double>, 4> gauss{{{0.0694318442029737, 0.1739274225687269},
+                                                            {0.3300094782075719, 0.3260725774312731},
+                                                            {0.6699905217924281, 0.3260725774312731},
+                                                            {0.9305681557970263, 0.1739274225687269}}};
+  const std::size_t before = std::min(i, (count - 1) / 2), from = std::min(i - before, s.size() - count);
+  const double length = s[i + 1] - s[i];
+  double sum = 0.0;
+  for (const auto& [u, weight] : gauss) {
+    const double at = s[i] + u * length;
+    sum += weight * length * polynomial(s, a, from, count, at, false) * polynomial(s, b, from, count, at, true);
+  }
+  return sum;
+}
+
+Quadrature integral(const Samples& s, const Samples& a, const Samples& b) {
+  constexpr std::size_t most = 4;
+  const std::size_t count = std::min(most, s.size());
+  Quadrature sum;
+  for (std::size_t i = 0; i + 1 < s.size(); ++i) {
+    const double value = integral(s, a, b, i, count);
+    const double coarse = count > 2 ? integral(s, a, b, i, count - 1) : a[i] * (b[i + 1] - b[i]);
+    sum += {.value = value, .error = std::abs(value - coarse)};
+  }
+  return sum;
+}
+
+// By how much λ does work on the structure: ∂Π/∂λ with the unknowns and the places of contacts on walls held.
+double work_rate(const Model& model, const State& state, double step) {
+  const auto energy = [&](double h) {
+    State moved = state;
+    moved.lambda += h;
+    return model.system().energy(moved);
+  };
+  double rate = (8.0 * (energy(step) - energy(-step)) - (energy(2.0 * step) - energy(-2.0 * step))) / (12.0 * step);
+  const MultiplierContact& contacts = *model.contact();
+  Gap field;
+  for (Index j = 0; j < contacts.contact_count(); ++j) {
+    const auto p = contacts.multiplier_index(state.active_set, j);
+    if (!p) continue;
+    contacts.candidate(j).gap(state, field);
+    rate -= state.x[*p] * field.rate;
+    const auto T = contacts.friction_index(state.active_set, j);
+    if (!T) continue;
+    contacts.candidate(j).place(state, 0.0, field);
+    rate -= state.x[*T] * field.rate;
+  }
+  return rate;
+}
+
+// −∫ T dw of all contacts along a piece, from what the states tell of T and w.
+Quadrature dissipated(const Model& model, const std::vector<const RecordPoint*>& points, const Samples& s) {
+  const MultiplierContact& contacts = *model.contact();
+  Quadrature sum;
+  for (Index j = 0; j < contacts.contact_count(); ++j) {
+    const auto is_closed = [j](const RecordPoint* point) {
+      return point->state.active_set[static_cast<std::size_t>(j)] != 0;
+    };
+    if (!contacts.is_rough(j) || std::none_of(points.begin(), points.end(), is_closed)) continue;
+    Samples against, place;
+    Gap field;
+    for (const RecordPoint* point : points) {
+      const double last = place.empty() ? 0.0 : place.back();
+      const bool faces = contacts.candidate(j).faces_wall(point->state);
+      if (faces) contacts.candidate(j).place(point->state, last, field);
+      place.push_back(faces ? field.value : last);
+      against.push_back(-contacts.friction_force(point->state, j));
+    }
+    sum += integral(s, against, place);
+  }
+  return sum;
+}
+
+}  // namespace
+
+void check_energy_balance(const Model& model, const Record& record, Index branch, Findings& findings) {
+  const double unit = model.frame().factor();
+  const RecordBranch& of = record.branches.at(static_cast<std::size_t>(branch));
+  const double range = of.greatest_lambda - of.least_lambda;
+  const double step = 1e-3 * (range > 0.0 ? range : 1.0);
+  Quadrature work, friction;
+  double dissipated_in_run = 0.0, stored = 0.0, magnitude = 0.0;
+  for (const Piece& piece : pieces_of(record, branch)) {
+    std::vector<const RecordPoint*> points;
+    Samples s, lambda, rate;
+    for (std::size_t i = piece.first; i <= piece.last; ++i) {
+      const RecordPoint& point = record.points[i];
+      if (!s.empty() && point.arc <= s.back()) continue;  // the same place again
+      points.push_back(&point);
+      s.push_back(point.arc);
+      lambda.push_back(point.lambda);
+      rate.push_back(unit * work_rate(model, point.state, step));
+      magnitude = std::max({magnitude, std::abs(point.energy), std::abs(rate.back() * point.lambda)});
+    }
+    work += integral(s, rate, lambda);
+    friction += dissipated(model, points, s);
+    const RecordPoint &from = record.points[piece.first], &to = record.points[piece.last];
+    const auto total = [](const RecordPoint& at) {
+      return std::accumulate(at.dissipation.begin(), at.dissipation.end(), 0.0);
+    };
+    stored += to.energy - from.energy;
+    dissipated_in_run += total(to) - total(from);
+    for (std::size_t i = piece.first; i < piece.last; ++i)
+      for (std::size_t wall = 0; wall < from.dissipation.size(); ++wall)
+        findings.compare("dissipation never falls",
+                         record.points[i].dissipation[wall] - record.points[i + 1].dissipation[wall], 0.0);
+  }
+  friction.value *= unit;
+  friction.error *= unit;
+  // Energies are sums of as many parts as there are unknowns; rates are differences of such over a part of the range.
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const double roundoff = (1e3 * epsilon * range / step + 1e-12) * magnitude;
+  findings.compare("friction dissipates −∫ T dw", std::abs(dissipated_in_run - friction.value),
+                   friction.error + roundoff);
+  findings.compare("work = energy stored + dissipated", std::abs(work.value - stored - dissipated_in_run),
+                   work.error + friction.error + roundoff);
+}
+
+}  // namespace arcwall::verify

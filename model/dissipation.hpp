@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "contact/multiplier_contact.hpp"
+#include "model/record.hpp"
+
+namespace arcwall {
+
+/// The slips along a direction at a state. `unit`: the user's length over that of the model.
+std::vector<RecordSlip> slips_along(const MultiplierContact& contacts, const State& state, const Direction& direction,
+                                    double unit);
+
+/// What friction dissipates while a slip goes from one end of an arc to the other, −∫ T dw, with cubics of T and w by
+/// the arc length (docs/theory.md, section 18.4). ≥ 0.
+double dissipated(const RecordSlip& from, const RecordSlip& to, double arc_length);
+
+/// Closed contacts that slip.
+Index slipping_contacts(const RecordPoint& point);
+
+/// Of all walls at a point.
+double total_dissipation(const RecordPoint& point);
+
+}  // namespace arcwall

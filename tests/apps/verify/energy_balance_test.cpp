@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "tests/apps/traced_deck.hpp"
+#include "tests/apps/verify/expect_whole.hpp"
+#include "tests/model/friction_decks.hpp"
+
+// What `verify` says of what friction dissipates.
+namespace arcwall::verify::energy_balance_test {
+
+namespace {
+
+using namespace friction_test;
+using test::TracedDeck;
+
+const std::string dragged = "title = \"Dragged\"\n" + strip(0.3,
+                                                            stage("press", "prescribed.0", 0.0005, -1.0, 0.4) +
+                                                                stage("drag", "prescribed.1", 0.01, -1.0, 0.1) +
+                                                                stage("back", "prescribed.1", -0.001, -0.2, 1.0),
+                                                            "[[prescribed]]\nat = \"clamp\"\nx = 1.0\n");
+
+const CheckSummary* check_of(const Verdict& verdict, const std::string& name) {
+  for (const CheckSummary& check : verdict.findings.checks())
+    if (check.name == name) return &check;
+  return nullptr;
+}
+
+std::string first_failure(const TracedDeck& traced, const std::function<void(Record&)>& change) {
+  Record record = traced.record();
+  change(record);
+  const Verdict verdict = verify(traced.model(), record, stored_files_of(record), "checkpoint");
+  EXPECT_TRUE(verdict.findings.first().has_value()) << "not caught";
+  return verdict.findings.first() ? verdict.findings.first()->what : "";
+}
+
+}  // namespace
+
+TEST(EnergyBalance, RunsWithFrictionAreConfirmed) {
+  for (const std::string& text :
+       {"title = \"Block\"\n" + block(0.3), "title = \"Node\"\n" + incline(0.3), "title = \"Node\"\n" + incline(1.25),
+        dragged, "title = \"Pressed\"\n" + strip(0.8, stage("press", "prescribed.0", 0.0005, -1.0, 0.08))})
+    test::expect_whole(TracedDeck(text));
+}
+
+// The bound is the error of the quadrature: far below what is dissipated.
+TEST(EnergyBalance, ItsBoundIsTold) {
+  const TracedDeck traced(dragged);
+  const Verdict verdict = verify(traced.model(), traced.record(), stored_files_of(traced.record()), "checkpoint");
+  const CheckSummary* const balance = check_of(verdict, "work = energy stored + dissipated");
+  ASSERT_NE(balance, nullptr);
+  EXPECT_EQ(balance->count, 3);
+  EXPECT_LT(balance->value, balance->bound);
+  EXPECT_LT(balance->bound, 1e-2 * traced.record().points.back().dissipation.front());
+  EXPECT_NE(check_of(verdict, "dissipation never falls"), nullptr);
+}
+
+TEST(EnergyBalance, WrongDissipationIsCaught) {
+  const TracedDeck traced(dragged);
+  const auto scaled = [](Record& record) {
+    for (RecordPoint& point : record.points) point.dissipation.front() *= 1.01;
+  };
+  EXPECT_NE(first_failure(traced, scaled).find("friction dissipates −∫ T dw"), std::string::npos);
+  const auto fallen = [](Record& record) { record.points.back().dissipation.front() *= 0.9; };
+  EXPECT_NE(first_failure(traced, fallen).find("dissipation never falls"), std::string::npos);
+}
+
+}  // namespace arcwall::verify::energy_balance_test

@@ -1,0 +1,266 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "model/event_names.hpp"
+#include "tests/model/friction_decks.hpp"
+
+// What friction dissipates, reversals, and what must not change the path. References as in friction_test.cpp.
+namespace arcwall::friction_test {
+
+namespace {
+
+double dissipation_at_end(const Session& session, Index stage) {
+  double last = 0.0;
+  for (const RecordPoint& point : session.points())
+    if (session.record().stage_number(point.branch) == stage)
+      last = std::accumulate(point.dissipation.begin(), point.dissipation.end(), 0.0);
+  return last;
+}
+
+std::string two_blocks(const std::string& stages) {
+  return bars + "[point]\nA = [0.0, 0.0]\nB = [10.0, 0.0]\nC = [30.0, 0.0]\n" + bar("ab", "A", "B") +
+         bar("bc", "B", "C") + weight("B", 1.0) + weight("C", 2.0) + stages;
+}
+
+// A bar of EA = 210 and length 10 in four elements on a floor, μ = 0.4, weight 0.05 a length at its nodes, pushed at
+// its left end.
+std::string heavy_bar(const std::string& stages) {
+  std::string text = bars + "[point]\nA = [0.0, 0.0]\n";
+  for (int i = 1; i <= 4; ++i) text += fmt::format("n{} = [{}, 0.0]\n", i, 2.5 * i);
+  for (int i = 1; i <= 4; ++i)
+    text += bar(fmt::format("b{}", i), i == 1 ? "A" : fmt::format("n{}", i - 1), fmt::format("n{}", i));
+  for (int i = 1; i <= 4; ++i) text += weight(fmt::format("n{}", i), i < 4 ? 0.125 : 0.0625);
+  text.replace(text.find("friction = 0.3"), 14, "friction = 0.4");
+  return text + stages;
+}
+
+const std::string all_of_dissipation = "[[monitor]]\nname = \"lost\"\ncomponent = \"dissipation\"\n";
+const std::string use_of_floor = "[[monitor]]\nname = \"use\"\nwall = \"floor\"\ncomponent = \"friction-use\"\n";
+
+const std::string press_and_drag =
+    stage("press", "prescribed.0", 0.0005, -1.0, 0.4) + stage("drag", "prescribed.1", 0.01, -1.0, 0.2) +
+    stage("back", "prescribed.1", -0.001, -0.4, 1.0) + stage("again", "prescribed.1", 0.001, -1.0, 0.4);
+const std::string drawn_clamp = "[[prescribed]]\nat = \"clamp\"\nx = 1.0\n";
+
+// λ of the changes of contact of all branches, in their order.
+std::vector<double> changes(const Session& session) {
+  std::vector<double> found;
+  for (const RecordEvent& event : session.events())
+    if (changes_contact(event.kind)) found.push_back(event.lambda);
+  return found;
+}
+
+void expect_same_changes(const std::string& text, const std::vector<double>& expected, double tolerance,
+                         double scale = 1.0) {
+  const std::vector<double> found = changes(run_of(text));
+  ASSERT_EQ(found.size(), expected.size()) << text;
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], scale * expected[i], scale * tolerance) << text;
+}
+
+}  // namespace
+
+// 0.3 (0.05 − 0.3/21) on the way out; 4 · 0.3 (0.05 − 0.3/21) a cycle.
+TEST(FrictionPath, BlockDissipatesTheWorkOfItsLoop) {
+  const Session session = run_of(block(0.3) + all_of_dissipation + use_of_floor);
+  EXPECT_NEAR(dissipation_at_end(session, 0), 0.0107142857142857, 1e-14);
+  EXPECT_NEAR(dissipation_at_end(session, 2) - dissipation_at_end(session, 0), 0.0428571428571429, 1e-13);
+  double before = 0.0;
+  for (const RecordPoint& point : session.points()) {
+    EXPECT_GE(point.monitors[1], before);
+    before = point.monitors[1];
+    EXPECT_LE(point.monitors[2], 1.0 + 1e-9);
+  }
+  EXPECT_EQ(session.points().front().monitors[2], 0.0);
+  EXPECT_EQ(session.points().back().monitors[2], 1.0);
+  EXPECT_EQ(session.points().back().monitors[1], dissipation_at_end(session, 2));
+}
+
+// B goes to and fro between ±0.107142857142857 under 0.3, C between ±0.05 under 0.6.
+TEST(FrictionPath, TwoBlocksDissipateTheWorkOfTheirLoop) {
+  const Session session = run_of(two_blocks(stage("out", "prescribed.0", 0.005, -1.0, 0.15) +
+                                            stage("back", "prescribed.0", -0.005, -0.3, 1.0) +
+                                            stage("again", "prescribed.0", 0.005, -1.0, 0.3)));
+  EXPECT_NEAR(dissipation_at_end(session, 0), 0.3 * 0.107142857142857 + 0.6 * 0.05, 1e-13);
+  EXPECT_NEAR(dissipation_at_end(session, 2) - dissipation_at_end(session, 0),
+              4.0 * (0.3 * 0.107142857142857 + 0.6 * 0.05), 1e-12);
+}
+
+// Node i slips at u = Σ_{j<i} (F_i − 0.05 j) 2.5/210 with F_i = 0.05 i, the last at F = 0.175; turned at 0.004 back at
+// twice these ways.
+TEST(FrictionPath, HeavyBarSlipsNodeByNode) {
+  const Session session = run_of(heavy_bar(stage("push", "prescribed.0", 0.0001, -1.0, 0.004) +
+                                           stage("pull", "prescribed.0", -0.0001, -0.008, 1.0) +
+                                           stage("push-again", "prescribed.0", 0.0001, -1.0, 0.008)));
+  EXPECT_EQ(reason(session), EndReason::stop);
+  expect_law(session);
+  const std::vector<double> forward{0.000595238095238095, 0.00178571428571429, 0.00357142857142857};
+  const auto out = lambdas(session, EventKind::contact_slips, 0), back = lambdas(session, EventKind::contact_slips, 1);
+  ASSERT_EQ(out.size(), 3U);
+  ASSERT_EQ(back.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(out[i], forward[i], 1e-12);
+    EXPECT_NEAR(back[i], -2.0 * forward[i], 1e-12);
+  }
+  // The last node never slips. u_1 … u_3 at 0.004 with F = 0.15 + 210/10 (0.004 − 0.00357142857142857).
+  const double force = 0.15 + 21.0 * (0.004 - 0.00357142857142857);
+  double way = 0.004, loop = 0.0;
+  for (int i = 1; i <= 3; ++i) {
+    way -= (force - 0.05 * (i - 1)) * 2.5 / 210.0;
+    loop += 4.0 * 0.05 * way;
+  }
+  EXPECT_NEAR(dissipation_at_end(session, 2) - dissipation_at_end(session, 0), loop, 1e-14);
+}
+
+TEST(FrictionPath, HeavyBarSlipsAsAWholeInTheEnd) {
+  const Session session = run_of(heavy_bar(stage("push", "prescribed.0", 0.0001, -1.0, 0.006)));
+  const auto out = lambdas(session, EventKind::contact_slips, 0);
+  ASSERT_EQ(out.size(), 4U);
+  EXPECT_NEAR(out[3], 0.0047619047619, 1e-12);
+  EXPECT_NEAR(std::abs(monitor_at_end(session, 0)), 0.175, 1e-12);
+}
+
+// The cycle of a dragged strip with 0.2 of amplitude: 0.4342639376193.
+TEST(FrictionPath, DraggedStripDissipatesTheWorkOfItsLoop) {
+  const Session session = run_of(strip(0.3, press_and_drag, drawn_clamp));
+  EXPECT_EQ(reason(session), EndReason::stop);
+  EXPECT_NEAR(dissipation_at_end(session, 3) - dissipation_at_end(session, 1), 0.4342639376193, 1e-6);
+}
+
+// The error of the integral along the path is of the fourth order in the steps.
+TEST(FrictionPath, DissipationConvergesWithTheSteps) {
+  const auto lost = [](double longest) {
+    return dissipation_at_end(run_of(strip(0.3, fmt::format("[path]\nmax_step = {}\n", longest) +
+                                                    stage("press", "prescribed.0", 0.0005, -1.0, 0.4))),
+                              0);
+  };
+  const double exact = lost(0.003), coarse = std::abs(lost(0.025) - exact), fine = std::abs(lost(0.0125) - exact);
+  EXPECT_GT(coarse, 0.0);
+  EXPECT_LT(fine, coarse / 8.0);
+}
+
+TEST(FrictionPath, AStageThatDrivesBackBeginsWithAReversal) {
+  const Session session = run_of(strip(0.3, press_and_drag, drawn_clamp));
+  std::vector<Index> reversed;
+  for (const RecordEvent& event : session.events())
+    if (event.kind == EventKind::reversal) reversed.push_back(event.branch);
+  EXPECT_EQ(reversed, (std::vector<Index>{2, 3}));
+}
+
+TEST(FrictionPath, StepsAndMethodsDoNotChangeTheEvents) {
+  const std::string node = incline(1.0), drawn = two_blocks(stage("out", "prescribed.0", 0.005, -1.0, 0.15) +
+                                                            stage("back", "prescribed.0", -0.005, -0.25, 1.0));
+  for (const std::string& text : {node, drawn}) {
+    const std::vector<double> expected = changes(run_of(text));
+    EXPECT_GE(expected.size(), 3U);
+    for (const char* const options :
+         {"max_step = 0.01", "max_step = 0.04", "max_step = 0.16", "method = \"load\"", "method = \"riks\"",
+          "method = \"normal-plane\"", "method = \"cylindrical\"", "method = \"pseudo-arclength\""})
+      expect_same_changes(text + "[path]\n" + options + "\n", expected, 1e-10);
+  }
+  const std::string pressed = strip(0.8, stage("press", "prescribed.0", 0.0005, -1.0, 0.08));
+  const std::vector<double> expected = changes(run_of(pressed));
+  for (const char* const options : {"max_step = 0.02", "max_step = 0.3", "method = \"riks\"",
+                                    "method = \"normal-plane\"", "method = \"pseudo-arclength\""})
+    expect_same_changes(pressed + "[path]\n" + options + "\n", expected, 1e-9);
+}
+
+TEST(FrictionPath, UnitsDoNotChangeTheEvents) {
+  const auto in_units = [](double length, double force) {
+    return fmt::format(R"(
+[material.m]
+E = {}
+[section.s]
+shape = "general"
+A = {}
+I = {}
+[point]
+A = [0.0, 0.0]
+B = [{}, 0.0]
+[support]
+A = ["z"]
+[[prescribed]]
+at = "A"
+x = {}
+[[wall]]
+name = "floor"
+side = "below"
+contact_surface = "axis"
+profile = {{ type = "flat", z = 0.0 }}
+friction = 0.3
+[[load]]
+at = "B"
+force = [0.0, {}]
+constant = true
+)",
+                       210.0 * force / (length * length), length * length, std::pow(length, 4), 10.0 * length, length,
+                       -force) +
+           bar("bar", "A", "B") + stage("out", "prescribed.0", 0.005, -1.0, 0.05) +
+           stage("back", "prescribed.0", -0.005, -0.1, 1.0);
+  };
+  const std::vector<double> expected = changes(run_of(in_units(1.0, 1.0)));
+  EXPECT_EQ(expected.size(), 3U);
+  expect_same_changes(in_units(1000.0, 1.0), expected, 1e-12);
+  expect_same_changes(in_units(0.0254, 4448.0), expected, 1e-12);
+}
+
+TEST(FrictionPath, MirrorImagesHaveTheSameEvents) {
+  const std::string text = strip(0.3, press_and_drag, drawn_clamp);
+  std::string mirrored = text;
+  mirrored.replace(mirrored.find("tip = [0.5, 0.0]"), 16, "tip = [-0.5, 0.0]");
+  mirrored.replace(mirrored.find("x = 1.0"), 7, "x = -1.0");
+  expect_same_changes(mirrored, changes(run_of(text)), 1e-10);
+}
+
+// Weights that press blocks one after the other, in either order, before they are drawn.
+TEST(FrictionPath, TheOrderOfWeightsDoesNotChangeTheEvents) {
+  const auto pressed = [](const char* first, const char* second) {
+    const std::string weights =
+        "[[load]]\nat = \"B\"\nforce = [0.0, -1.0]\n[[load]]\nat = \"C\"\nforce = [0.0, -2.0]\n";
+    return bars + "[point]\nA = [0.0, 0.0]\nB = [10.0, 0.0]\nC = [30.0, 0.0]\n" + bar("ab", "A", "B") +
+           bar("bc", "B", "C") + weights + stage("first", first, 0.5, -1.0, 1.0) +
+           stage("second", second, 0.5, -1.0, 1.0) + stage("out", "prescribed.0", 0.005, -1.0, 0.15);
+  };
+  const Session one = run_of(pressed("load.0", "load.1")), other = run_of(pressed("load.1", "load.0"));
+  const auto expected = lambdas(one, EventKind::contact_slips, 2), found = lambdas(other, EventKind::contact_slips, 2);
+  ASSERT_EQ(expected.size(), 2U);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(expected[0], 0.3 / 21.0, 1e-12);
+  EXPECT_NEAR(expected[1], 0.1, 1e-12);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(found[i], expected[i], 1e-12);
+}
+
+// Killed at every change of contact, just behind it, on the slip between, and where a stage has turned.
+TEST(FrictionPath, RunsResumedAtEventsAreEqualToTheLastBit) {
+  const std::string text = strip(0.3, press_and_drag, drawn_clamp) + all_of_dissipation;
+  const Session whole = run_of(text);
+  const std::size_t points = whole.points().size();
+  std::vector<std::size_t> killed{points / 4};
+  for (std::size_t i = 0; i < points; ++i)
+    if (const auto& event = whole.points()[i].event;
+        event && (changes_contact(*event) || *event == EventKind::reversal))
+      killed.insert(killed.end(), {i + 1, i + 2});
+  EXPECT_GE(killed.size(), 7U);
+  for (const std::size_t at : killed) {
+    if (at >= points) continue;
+    Session first = session_of(text);
+    while (first.points().size() < at) ASSERT_NE(first.next(), nullptr);
+    Session rest = Session::from(first.checkpoint(), "checkpoint", Session::Resume::go_on);
+    while (rest.next() != nullptr) {
+    }
+    ASSERT_EQ(rest.points().size(), points);
+    for (std::size_t i = 0; i < points; ++i) {
+      EXPECT_EQ(rest.points()[i].lambda, whole.points()[i].lambda);
+      EXPECT_EQ(rest.points()[i].state.x, whole.points()[i].state.x);
+      EXPECT_EQ(rest.points()[i].dissipation, whole.points()[i].dissipation);
+      EXPECT_EQ(rest.points()[i].monitors, whole.points()[i].monitors);
+    }
+    EXPECT_EQ(rest.events().size(), whole.events().size());
+  }
+}
+
+}  // namespace arcwall::friction_test
