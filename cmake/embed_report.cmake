@@ -3,7 +3,7 @@
 #   cmake -DFOLDER=… -DSCRIPTS=data,curve -DPLOTLY_SCRIPT=… -DPLOTLY_LICENCE=… -DOUTPUT=… -P embed_report.cmake
 #
 # Without plotly its two files are empty words.
-foreach(part page.html page.css sheet.html picture.html sheet.css explore.html explore.css explore.js)
+foreach(part page.html page.css print_head.html sheet.html picture.html sheet.css explore.html explore.css explore.js)
   file(READ "${FOLDER}/${part}" text)
   string(REPLACE "." "_" name ${part})
   set(${name} "${text}")
@@ -36,8 +36,8 @@ const ReportParts& report_parts() {
       .style = R\"report(${page_css})report\",
       .script = R\"report(${page_js})report\",
       .library = R\"report(${library})report\",
-      .sheet = R\"report(${sheet_html})report\",
-      .picture = R\"report(${picture_html})report\",
+      .sheet = R\"report(${print_head_html}${sheet_html})report\",
+      .picture = R\"report(${print_head_html}${picture_html})report\",
       .sheet_style = R\"report(${sheet_css})report\",
       .explorer_page = R\"report(${explore_html})report\",
       .explorer_style = R\"report(${explore_css})report\",

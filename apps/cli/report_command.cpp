@@ -6,6 +6,7 @@
 #include "apps/cli/commands.hpp"
 #include "apps/output/files.hpp"
 #include "apps/output/overlay.hpp"
+#include "apps/output/printed_report.hpp"
 #include "apps/output/report_html.hpp"
 #include "core/error.hpp"
 #include "model/regular_file.hpp"
