@@ -241,15 +241,15 @@ std::vector<std::string> map_monitors(const sweep::Overview& of_all, const std::
 ExitStatus collect(const Options& options) {
   const sweep::Collection collection(options.words().front());
   const sweep::Overview of_all = sweep::overview(collection);
-  sweep::DrawnCases drawn(collection, of_all, map_keys(collection.sweep(), options.texts("over")),
-                          map_monitors(of_all, options.texts("monitor")));
+  sweep::SweepPage page(collection, of_all, map_keys(collection.sweep(), options.texts("over")),
+                        map_monitors(of_all, options.texts("monitor")));
   sweep::Tables tables(collection, of_all);
   collection.visit([&](const sweep::Case& one, const sweep::CaseResult& result) {
     tables.add(one, result);
-    drawn.add(one, result);
+    page.add(one, result);
   });
   tables.finish();
-  write_whole(collection.folder() / "report.html", sweep::report_html(collection, of_all, drawn));
+  write_whole(collection.folder() / "report.html", page.text());
   std::cout << fmt::format("{} cases, {} ended as the deck asks; written: cases.csv, sweep.csv, {}report.html in {}\n",
                            collection.size(), collection.size() - of_all.failed,
                            collection.sweep().traced == Traced::curve ? "curves.csv, " : "",

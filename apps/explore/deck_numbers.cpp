@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/output/key_names.hpp"
 #include "model/deck/key_list.hpp"
 #include "model/deck/toml_source.hpp"
 #include "model/deck/value.hpp"
@@ -15,20 +16,9 @@ using deck::Value;
 
 constexpr std::string_view of_variables = "variables.";
 
-std::string joined(const std::string& before, const std::string& part) {
-  return before.empty() ? part : before + "." + part;
-}
-
 std::string text_of(const Value& table, std::string_view key) {
   const Value* const found = deck::find(table, key);
   return found != nullptr && found->kind == Value::Kind::string ? found->string : "";
-}
-
-// The name of a table in an array, where it names this one alone; else its index.
-std::string part_of(const Value& array, std::size_t index) {
-  const std::string name = array.items[index].kind == Value::Kind::table ? text_of(array.items[index], "name") : "";
-  const bool is_it = deck::is_name(name) && deck::element_of(array, name) == &array.items[index];
-  return is_it ? name : std::to_string(index);
 }
 
 class Collector {
@@ -40,10 +30,10 @@ class Collector {
     if (numbers_.size() == most_) return;
     if (value.kind == Value::Kind::table)
       for (const Value& item : value.items)
-        if (deck::is_name(item.key)) collect(item, joined(key, item.key), joined(indexed, item.key));
+        if (deck::is_name(item.key)) collect(item, key_of(key, item.key), key_of(indexed, item.key));
     if (value.kind == Value::Kind::array)
       for (std::size_t i = 0; i < value.items.size(); ++i)
-        collect(value.items[i], joined(key, part_of(value, i)), joined(indexed, std::to_string(i)));
+        collect(value.items[i], key_of(key, part_of_key(value, i)), key_of(indexed, std::to_string(i)));
     const bool integer = value.kind == Value::Kind::integer;
     if ((!integer && value.kind != Value::Kind::number) || !std::isfinite(value.number)) return;
     std::string unit = deck::unit_of_key(indexed, units_);

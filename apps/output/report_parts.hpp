@@ -14,6 +14,10 @@ struct ReportParts {
   std::string_view sheet{}, picture{};  ///< as `page`, of a printed sheet and of the curve alone
   std::string_view sheet_style{};       ///< theirs, on top of `style`
 
+  std::string_view sweep{};         ///< as `page`, of a sweep
+  std::string_view sweep_script{};  ///< JavaScript: show_sweep()
+  std::string_view map_library{};   ///< as `library`, with heat maps and contour lines
+
   std::string_view explorer_page{}, explorer_style{}, explorer_script{};
 };
 

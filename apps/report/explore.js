@@ -54,7 +54,6 @@ const go_back_to = (before) => {
 
 // --- sliders ---------------------------------------------------------------------------------------------------------
 
-const as_text = (value) => String(value);
 // The range that a slider has at first, and its step: a round part of it.
 const range_about = ({ value, whole }) => {
   const size = value === 0 ? 1 : Math.abs(value) / 2;
@@ -76,7 +75,7 @@ const add_slider = (key) => {
   slider.setAttribute('aria-label', `${key}, slider`);
   const ends = range_about(number);
   const [low, high] = ['lowest', 'highest'].map((which, i) => {
-    const end = made('input', { type: 'text', inputMode: 'decimal', value: as_text(rounded(ends[i], step_of(...ends, number.whole))) });
+    const end = made('input', { type: 'text', inputMode: 'decimal', value: String(rounded(ends[i], step_of(...ends, number.whole))) });
     end.setAttribute('aria-label', `${which} value of ${key}`);
     return end;
   });
@@ -84,18 +83,18 @@ const add_slider = (key) => {
   const set_ends = () => {
     if (!(Number(low.value) < Number(high.value))) return;
     [slider.min, slider.max] = [low.value, high.value];
-    slider.step = as_text(step());
+    slider.step = String(step());
     slider.value = field.value;
   };
   const change = (value) => {
     const now = number_at(key);
-    if (!now || as_text(now.value) === value) return;
+    if (!now || String(now.value) === value) return;
     before ??= text;
     set_number(now, value);
     trace_next();
   };
   slider.addEventListener('input', () => {
-    field.value = as_text(rounded(Number(slider.value), step()));
+    field.value = String(rounded(Number(slider.value), step()));
     change(field.value);
   });
   slider.addEventListener('change', () => {
@@ -106,7 +105,7 @@ const add_slider = (key) => {
   field.addEventListener('change', () => {
     if (field.value.trim() === '' || !Number.isFinite(Number(field.value))) return show_number(false);
     const was = text;
-    change(as_text(Number(field.value)));
+    change(String(Number(field.value)));
     before = null;
     slider.value = field.value;
     if (text !== was) remember(was);
@@ -118,8 +117,8 @@ const add_slider = (key) => {
     const now = number_at(key);
     slider.disabled = field.disabled = !now;
     if (!now) return;
-    if (!typing) field.value = as_text(now.value);
-    slider.value = as_text(now.value);
+    if (!typing) field.value = String(now.value);
+    slider.value = String(now.value);
   };
   const box = made('div', { className: 'number' }, name, field, remove, slider, made('div', { className: 'ends' }, low, high));
   box.dataset.key = key;
@@ -149,7 +148,7 @@ const list_keys = () => {
   const all = numbers.filter(({ key }) => !shown.has(key) && key.toLowerCase().includes(part));
   element('found').replaceChildren(...all.slice(0, most).map(({ key, value, unit }) => {
     const button = made('button', { type: 'button', title: `A slider for ${key}` }, key,
-      made('span', { textContent: unit === '' ? as_text(value) : `${value} ${unit}` }));
+      made('span', { textContent: unit === '' ? String(value) : `${value} ${unit}` }));
     button.addEventListener('click', () => {
       add_slider(key);
       element('sliders').lastElementChild?.querySelector('input[type=range]').focus();
@@ -313,26 +312,23 @@ const smooth = (places) => places.flatMap(([x, y, slope], i) => {
 });
 
 const draw_event_curve = ({ key, unit, points: places, specials }) => {
-  const style = getComputedStyle(document.documentElement), colour = (name) => style.getPropertyValue(`--${name}`).trim();
   const symbols = { cusp: 'diamond', crossing: 'x', begins: 'square-open', ends: 'square-open' };
-  const drawn = smooth(places), title = (text) => ({ text: text.replaceAll('<', '&lt;'), standoff: 8 });
-  const axis = { zeroline: false, gridcolor: colour('grid'), linecolor: colour('edge'), automargin: true, exponentformat: 'power' };
+  const drawn = smooth(places);
   const traces = [
     { type: 'scatter', mode: 'lines', hoverinfo: 'skip', x: drawn.map(([x]) => x), y: drawn.map(([, y]) => y), line: { color: colour('accent'), width: 2.2 } },
     { type: 'scatter', mode: 'markers', x: places.map(([x]) => x), y: places.map(([, y]) => y), marker: { color: colour('accent'), size: 5 },
       hovertemplate: `%{x}<br>λ = %{y}<extra></extra>` },
     { type: 'scatter', mode: 'markers', x: specials.map(({ point }) => places[point][0]), y: specials.map(({ point }) => places[point][1]),
       marker: { color: colour('force'), size: 11, symbol: specials.map(({ kind }) => symbols[kind]) },
-      hovertext: specials.map(({ kind, why }) => `${kind}${why === '' ? '' : `: ${why.replaceAll('<', '&lt;')}`}`), hoverinfo: 'text' }];
+      hovertext: specials.map(({ kind, why }) => `${kind}${why === '' ? '' : `: ${as_text(why)}`}`), hoverinfo: 'text' }];
   const now = number_at(key)?.value;
   const plot = element('curve-plot');
-  Plotly.react(plot, traces, { autosize: true, showlegend: false, hovermode: 'closest', margin: { l: 10, r: 12, t: 10, b: 10 }, dragmode: false,
-    xaxis: { ...axis, title: title(unit === '' ? key : `${key} [${unit}]`) }, yaxis: { ...axis, title: title('λ of the event') },
-    font: { family: 'system-ui, sans-serif', size: 13, color: colour('ink') }, paper_bgcolor: colour('paper'), plot_bgcolor: colour('paper'),
+  const layout = plot_layout(plot_axis(unit === '' ? key : `${key} [${unit}]`), plot_axis('λ of the event'));
+  Plotly.react(plot, traces, { ...layout, dragmode: false, margin: { ...layout.margin, t: 10 },
     shapes: now === undefined ? [] : [{ type: 'line', xref: 'x', yref: 'paper', x0: now, x1: now, y0: 0, y1: 1, line: { color: colour('force'), width: 1.2, dash: 'dot' } }] },
-  { responsive: true, displaylogo: false, displayModeBar: false });
+  { ...plot_config, displayModeBar: false });
   if (plot.choose === undefined) plot.on('plotly_click', (clicked) => plot.choose(clicked));
-  plot.choose = ({ points: [{ x }] }) => shown.get(key)?.choose(as_text(Number(x.toPrecision(12))));
+  plot.choose = ({ points: [{ x }] }) => shown.get(key)?.choose(String(Number(x.toPrecision(12))));
 };
 
 const follow_event = async () => {
@@ -375,7 +371,7 @@ let pins = [], pinned = 0;
 
 // The numbers that differ from the deck as it was read, as `--set` has them.
 const differences = (list) => list.filter(({ key, value }) => first_numbers?.get(key)?.value !== value);
-const settings = () => numbers_of === text ? differences(numbers).map(({ key, value }) => `${key}=${as_text(value)}`) : [];
+const settings = () => numbers_of === text ? differences(numbers).map(({ key, value }) => `${key}=${String(value)}`) : [];
 
 const pin_curve = () => {
   if (last === null) return;
@@ -407,7 +403,7 @@ const command = () => {
   const by_place = numbers_of === text ? differences(numbers) : [];
   const places = by_place.flatMap(({ key, value }) => first_numbers?.has(key) ? [{ ...first_numbers.get(key), value }] : []);
   places.sort((a, b) => b.line - a.line || b.column - a.column);  // from behind: the places before stay
-  for (const place of places) changed = replaced(changed, place, as_text(place.value)).text;
+  for (const place of places) changed = replaced(changed, place, String(place.value)).text;
   if (changed !== text) return null;
   return `trace-path run ${quoted(deck.file)}${settings().map((setting) => ` --set ${quoted(setting)}`).join('')}`;
 };
@@ -423,7 +419,7 @@ const study = () => {
     const step = Math.max(Math.round((high - low) / (values - 1)), 1);
     return `${key} = [${Array.from({ length: Math.floor((high - low) / step) + 1 }, (_, i) => low + i * step).join(', ')}]`;
   };
-  const fixed = differences(numbers).filter(({ key }) => !shown.has(key)).map(({ key, value }) => `${key} = [${as_text(value)}]`);
+  const fixed = differences(numbers).filter(({ key }) => !shown.has(key)).map(({ key, value }) => `${key} = [${String(value)}]`);
   return [`# trace-path sweep plan ${study_file()} --out study; trace-path sweep run study; trace-path sweep collect study`,
     `title = ${JSON.stringify(`${deck.file.split('/').at(-1)}: ${keys.join(', ')}`)}`, `deck = ${JSON.stringify(deck.file.split('/').at(-1))}`, '',
     '[grid]', ...keys.map(line), ...fixed, ''].join('\n');

@@ -5,8 +5,6 @@ const plotly_chart = (picked, axes, kept) => {
   const plot = element('plot');
   const here_trace = () => ({ type: 'scatter', mode: 'markers', x: [], y: [], hoverinfo: 'skip',
     marker: { size: 20, symbol: 'circle-open', color: colour('force'), line: { width: 3 } } });
-  const axis = (title) => ({ title: { text: as_text(title), standoff: 8 }, zeroline: false, gridcolor: colour('grid'),
-    linecolor: colour('edge'), automargin: true, exponentformat: 'power' });  // no 2p for 2·10⁻¹²
   // The area under a part of the curve; the first of the traces, so that the others stand on it.
   const area_trace = () => {
     const [first, last] = shaded ? [Math.min(...shaded), Math.max(...shaded)] : [0, 0];
@@ -30,15 +28,8 @@ const plotly_chart = (picked, axes, kept) => {
     const all = [area_trace(), ...lines, ...others, event_trace(shown, drawn), here_trace()];
     traces = all.length;
     marks = 1 + lines.length + others.length;
-    const narrow = window.matchMedia('(max-width: 860px)').matches;
     const [x, y] = view ? view.map((range) => ({ range, autorange: false })) : [{}, {}];
-    const layout = { autosize: true, xaxis: { ...axis(shown.across.title), ...x }, yaxis: { ...axis(shown.up.title), ...y },
-      margin: { l: 10, r: 12, t: narrow ? 34 : 28, b: 10 }, showlegend: false, hovermode: 'closest', dragmode: narrow ? false : 'zoom',
-      hoverlabel: { align: 'left', bgcolor: colour('paper'), bordercolor: colour('edge'), font: { color: colour('ink'), size: 13 } },
-      font: { family: 'system-ui, "Segoe UI", Roboto, Arial, sans-serif', size: 13, color: colour('ink') },
-      modebar: { bgcolor: 'rgba(0,0,0,0)', color: colour('soft'), activecolor: colour('accent') },
-      paper_bgcolor: colour('paper'), plot_bgcolor: colour('paper'),
-      annotations: jump_arrows(shown) };
+    const layout = { ...plot_layout({ ...plot_axis(shown.across.title), ...x }, { ...plot_axis(shown.up.title), ...y }), annotations: jump_arrows(shown) };
     Plotly.react(plot, all, layout, config);
     opened = view;
     say_what_is_drawn(drawn, view !== null);
@@ -50,8 +41,8 @@ const plotly_chart = (picked, axes, kept) => {
     range.every((value, k) => Math.abs(value - opened[i][k]) <= 1e-6 * Math.abs(opened[i][1] - opened[i][0])));
   const reset = () => Plotly.relayout(plot, opened !== null && !is_as_opened()
     ? { 'xaxis.range': [...opened[0]], 'yaxis.range': [...opened[1]] } : { 'xaxis.autorange': true, 'yaxis.autorange': true });
-  const config = { responsive: true, displaylogo: false, doubleClick: false,
-    modeBarButtons: [['toImage', 'zoom2d', 'pan2d', 'zoomIn2d', 'zoomOut2d', { name: 'reset', title: 'Reset axes', icon: Plotly.Icons.home, click: reset }]],
+  const config = { ...plot_config, doubleClick: false,
+    modeBarButtons: [[...plot_buttons, { name: 'reset', title: 'Reset axes', icon: Plotly.Icons.home, click: reset }]],
     toImageButtonOptions: { filename: 'load', scale: 2 } };
   // Where the reader has enlarged the curve there is room for more marks.
   const mark_events_again = () => {

@@ -1,10 +1,5 @@
 // The curve as plotly draws it: what is drawn, and where.
-// Colours of the page, which follow whether it is light or dark.
-const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 const of_branch = (own) => own === '#000000' ? colour('ink') : own;
-
-// plotly reads <b>, <a href=…>, <br> and entities in its texts.
-const as_text = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;');
 
 const stability = (point) => {
   const unstable = points.unstable[point];

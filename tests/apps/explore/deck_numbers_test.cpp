@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/output/key_names.hpp"
 #include "core/error.hpp"
 #include "model/deck/numbers.hpp"
 #include "model/deck/toml_source.hpp"
@@ -57,6 +58,16 @@ TEST(DeckNumbers, OfAnExampleAreKeysOfSet) {
     ASSERT_TRUE(std::holds_alternative<deck::DeckPart>(part)) << number.key;
     EXPECT_EQ(std::get<deck::DeckPart>(part).value->number, number.value) << number.key;
   }
+}
+
+// A name that two tables have stays an index, and so does what a key that is not there has.
+TEST(KeyNames, NamesOfTablesTakeThePlacesOfTheirIndices) {
+  const deck::Value root = deck::parse_deck(text, "deck.toml");
+  EXPECT_EQ(with_names(root, "wall.0.profile.z"), "wall.upper.profile.z");
+  EXPECT_EQ(with_names(root, "wall.upper.profile.z"), "wall.upper.profile.z");
+  EXPECT_EQ(with_names(root, "wall.2.profile.z"), "wall.2.profile.z");
+  EXPECT_EQ(with_names(root, "member.strip.imperfection.0.amplitude"), "member.strip.imperfection.0.amplitude");
+  EXPECT_EQ(with_names(root, "wall.9.profile.z"), "wall.9.profile.z");
 }
 
 }  // namespace
