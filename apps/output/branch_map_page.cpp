@@ -159,12 +159,13 @@ OrderedJson branch_map_json(const Record& record, const BranchMap& map) {
 std::string branch_map_section(const Record& record, const BranchMap& map) {
   if (map.segments.empty()) return "";
   return "<section aria-labelledby=\"branch-map-title\"><h2 id=\"branch-map-title\">Branch map</h2>\n<div "
-         "class=\"scroll\">" +
+         "class=\"scroll\" tabindex=\"0\">" +
          picture(record, map) +
          "</div>\n<p class=\"note\">Horizontal lines are segments of branches, with their contact pattern. Vertical "
          "lines "
          "are events between segments. Dotted lines are jumps. Dashed segments are unstable; brackets give the number "
-         "of unstable directions.</p>\n<div class=\"scroll\"><table id=\"stable\"><thead><tr><th class=\"figure\">from "
+         "of unstable directions.</p>\n<div class=\"scroll\" tabindex=\"0\"><table id=\"stable\"><thead><tr><th "
+         "class=\"figure\">from "
          "λ</th><th "
          "class=\"figure\">to</th><th>stable</th><th>minimum energy</th></tr></thead><tbody>\n" +
          stable_rows(map) + "</tbody></table></div></section>";

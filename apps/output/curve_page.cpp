@@ -136,8 +136,9 @@ std::string sides_html(const EventCurve& curve) {
 }
 
 std::string specials_html(const EventCurve& curve) {
-  std::string html = "<div class=\"scroll\"><table><thead><tr><th>special point</th><th class=\"figure long\">" +
-                     escaped(curve.key) + "</th><th class=\"figure\">λ</th><th>why</th></tr></thead><tbody>\n";
+  std::string html =
+      "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr><th>special point</th><th class=\"figure long\">" +
+      escaped(curve.key) + "</th><th class=\"figure\">λ</th><th>why</th></tr></thead><tbody>\n";
   for (const CurveSpecial& special : curve.specials) {
     const CurvePoint& point = curve.points[special.point];
     html += fmt::format("<tr><td>{}</td><td class=\"figure\">{}</td><td class=\"figure\">{}</td><td>{}</td></tr>\n",

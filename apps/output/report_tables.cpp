@@ -36,7 +36,7 @@ std::string table_section(
   const auto is_figure = [&](std::size_t i) { return columns[i].side == TableColumn::Side::right; };
   std::string text = fmt::format(
       "<section aria-labelledby=\"{0}-title\"><h2 id=\"{0}-title\">{1}</h2>"
-      "<div class=\"scroll\"><table id=\"{0}\"><thead><tr>",
+      "<div class=\"scroll\" tabindex=\"0\"><table id=\"{0}\"><thead><tr>",
       id, title);
   for (std::size_t i = 0; i < columns.size(); ++i)
     text += fmt::format("<th{}>{}</th>", is_figure(i) ? " class=\"figure\"" : "", escaped(columns[i].title));

@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { before, after } from 'node:test';
@@ -89,6 +90,15 @@ const walk_by_tab = async (page) => {
     assert.ok(at.there, `focused, but not there: ${at.what}`);
     assert.ok(at.outlined, `focused, but not to be seen: ${at.what}`);
   }
+};
+
+// By axe-core, the rules of WCAG 2 among them.
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+export const has_no_serious_finding = async (page) => {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => window.axe.run());
+  const serious = violations.filter(({ impact }) => ['serious', 'critical'].includes(impact));
+  assert.deepEqual(serious.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(' and ')}`), []);
 };
 
 // All that a reader can use is reached by the Tab key, and nothing is wider than the window.

@@ -5,7 +5,7 @@ import { mkdtempSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
 import { join } from 'node:path';
 import { afterEach, test } from 'node:test';
-import { by_keyboard_alone, desktop, examples, folder, open, phone, report_of, saved, trace_path } from './browser.mjs';
+import { by_keyboard_alone, desktop, has_no_serious_finding, examples, folder, open, phone, report_of, saved, trace_path } from './browser.mjs';
 import { hostile_decks } from './hostile_decks.mjs';
 
 const upper = 'wall.upper.profile.z';
@@ -341,6 +341,7 @@ for (const [viewport, colorScheme] of [[desktop, 'light'], [{ width: 390, height
   test(`by the keyboard alone, ${viewport.width} wide`, async () => {
     const { address } = await explore(with_a_variable);
     const { page, finish } = await opened(address, { viewport, colorScheme });
+    await has_no_serious_finding(page);
     await by_keyboard_alone(page, viewport.width);
     await page.focus('.number input[type=range]');
     await page.keyboard.press('ArrowRight');

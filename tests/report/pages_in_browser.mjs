@@ -1,10 +1,10 @@
-// Every kind of page, narrow and wide, in light and in dark colours, by the keyboard alone.
+// Every kind of page, narrow and wide, in light and in dark colours, by the keyboard alone, and as axe-core sees it.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { copyFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { by_keyboard_alone, channel, examples, folder, open, phone, desktop, trace_path } from './browser.mjs';
+import { by_keyboard_alone, has_no_serious_finding, channel, examples, folder, open, phone, desktop, trace_path } from './browser.mjs';
 
 const run = (...words) => execFileSync(trace_path, words, { stdio: 'ignore' });
 const hostile = '\u202e<img src=x onerror=touched=1></title><script>touched=1</script>';
@@ -33,10 +33,11 @@ const pages = {
 };
 
 for (const [name, make] of Object.entries(pages))
-  test(`by the keyboard alone, wide and narrow, light and dark: ${name}`, async () => {
+  test(`by the keyboard alone, without findings of axe-core, wide and narrow, light and dark: ${name}`, async () => {
     const file = make();
     for (const [viewport, colorScheme] of [[desktop, 'light'], [{ width: 390, height: phone.height }, 'dark']]) {
       const { page, finish } = await open(file, { viewport, colorScheme });
+      await has_no_serious_finding(page);
       await by_keyboard_alone(page, viewport.width);
       assert.equal(await page.evaluate(() => window.touched), undefined, 'no text has become a script');
       await finish();
