@@ -41,7 +41,9 @@ const set_number = (number, value) => {
 const number_at = (key) => numbers_of === text ? numbers.find((number) => number.key === key) : undefined;
 
 const remember = (before) => {
+  const most = 100;
   if (undone.at(-1) !== before) undone.push(before);
+  if (undone.length > most) undone.shift();
   element('undo').disabled = element('reset').disabled = false;
 };
 const go_back_to = (before) => {

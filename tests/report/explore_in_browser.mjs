@@ -1,41 +1,13 @@
 // Drives Chromium through the page that trace-path explore serves: node explore_in_browser.mjs TRACE_PATH EXAMPLES CHROMIUM
 import assert from 'node:assert/strict';
-import { execFileSync, spawn } from 'node:child_process';
-import { mkdtempSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { execFileSync } from 'node:child_process';
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
 import { join } from 'node:path';
-import { afterEach, test } from 'node:test';
+import { test } from 'node:test';
 import { by_keyboard_alone, desktop, has_no_serious_finding, examples, folder, open, phone, report_of, saved, trace_path } from './browser.mjs';
+import { add, channel_text, explore, move, opened, release, settled, text_of, upper } from './explorer.mjs';
 import { hostile_decks } from './hostile_decks.mjs';
-
-const upper = 'wall.upper.profile.z';
-const channel_text = readFileSync(join(examples, 'channel.toml'), 'utf8');
-
-const servers = [];
-// The program in a folder of its own, which has the deck alone.
-const explore = async (text = channel_text, name = 'deck.toml') => {
-  const home = mkdtempSync(join(folder, 'explore-'));
-  writeFileSync(join(home, name), text);
-  const server = spawn(trace_path, ['explore', name, '--no-browser'], { cwd: home, stdio: ['ignore', 'pipe', 'ignore'] });
-  servers.push(server);
-  const ended = new Promise((resolve) => server.on('exit', (status, signal) => resolve({ status, signal })));
-  const address = await new Promise((resolve, reject) => {
-    server.stdout.once('data', (line) => resolve(String(line).trim()));
-    ended.then(() => reject(new Error('the program ended')));
-  });
-  return { address, home, server, ended };
-};
-afterEach(() => { for (const server of servers.splice(0)) server.kill('SIGKILL'); });
-
-// What the page shows is of its text.
-const settled = (page) => page.waitForFunction(() => document.getElementById('result').dataset.text === document.getElementById('text').value &&
-  !document.getElementById('result').classList.contains('old'), undefined, { polling: 5 });
-const text_of = (page) => page.inputValue('#text');
-const opened = async (address, options) => {
-  const one = await open(address, options);
-  await settled(one.page);
-  return one;
-};
 
 const parts = ['#events', '#jumps', '#strip', 'header'];
 const tables = (page) => page.evaluate((all) => all.map((part) => document.querySelector(`#result ${part}`)?.textContent), parts);
@@ -49,13 +21,6 @@ const edit = async (page, text) => {
   await page.$eval('#deck-panel', (panel) => { panel.open = true; });
   await page.fill('#text', text);
 };
-const add = (page, key) => page.locator('#found button', { hasText: key }).first().click();
-const move = (page, key, value) => page.locator(`.number[data-key="${key}"] input[type=range]`).evaluate((slider, to) => {
-  slider.value = to;
-  slider.dispatchEvent(new Event('input'));
-}, value);
-const release = (page, key) => page.locator(`.number[data-key="${key}"] input[type=range]`).dispatchEvent('change');
-
 const processes_of = (server) => readFileSync(`/proc/${server.pid}/task/${server.pid}/children`, 'utf8').trim();
 const until = async (is_so, what) => {
   for (let i = 0; i < 1000; ++i) {
