@@ -29,6 +29,7 @@ from .deck import Deck
 from .errors import ArcwallError, DeckError, Diagnostic, FileError, NoAnswer, NoStart, NotFinite
 from .event_curves import CurveSpecial, EventCurve, WorstCombination
 from .events import Branch, Contact, Continuum, End, Event, Events, Found, Jump, JumpContact, Point, Return, Search
+from .exploring import Exploration, explore
 from .path import Path, State, Tracing, load
 from .shapes import ContactMark, MemberShape, Shape, WallShape
 from .studies import ConvergedEvent, ConvergedMonitor, Convergence
@@ -57,6 +58,7 @@ __all__ = [
     "Event",
     "EventCurve",
     "Events",
+    "Exploration",
     "FileError",
     "Found",
     "Jump",
@@ -77,6 +79,7 @@ __all__ = [
     "WallShape",
     "WorstCombination",
     "__version__",
+    "explore",
     "load",
     "trace",
 ]

@@ -1,5 +1,5 @@
 # Types of the compiled module (python/engine). It is private: the package wraps its plain values in classes.
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -29,6 +29,7 @@ def event_curve(
     str,
 ]: ...
 def worst(file: str, text: bytes | str, assignments: Sequence[str]) -> tuple[dict[str, Any], str]: ...
+def explore(text: bytes | str, file: str, seconds: float, listening: Callable[[str], object]) -> None: ...
 def walls(
     file: str, text: bytes | str, assignments: Sequence[str], lam: float
 ) -> dict[str, tuple[np.ndarray, str]]: ...

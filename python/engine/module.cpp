@@ -89,6 +89,7 @@ PYBIND11_MODULE(_engine, module) {
   pybind11::register_exception_translator(arcwall::python::translate);
   arcwall::python::bind_answers(module);
   arcwall::python::bind_decks(module);
+  arcwall::python::bind_exploring(module);
   arcwall::python::bind_runs(module);
   arcwall::python::bind_systems(module);
 }

@@ -46,6 +46,7 @@ inline void raise_what_waits() {
 
 void bind_answers(py::module_& module);
 void bind_decks(py::module_& module);
+void bind_exploring(py::module_& module);
 void bind_runs(py::module_& module);
 void bind_systems(py::module_& module);
 
