@@ -296,10 +296,11 @@ class Falls {
     if (valley.end == ValleyEnd::leads_back) return {};
     if (valley.end == ValleyEnd::unclear && loss.modes > 1) return fallen_not(loss, several_modes);
     Fallen fallen{};
-    if (valley.end == ValleyEnd::leads_away) {
-      fallen = *fall_from(loss, valley.state);
-      if (fallen.jump->why != not_of_path) return fallen;  // else nodes hold what moving contact does not
-    }
+    if (valley.end == ValleyEnd::leads_away)
+      if (const auto end = fall_from(loss, valley.state)) {
+        fallen = *end;
+        if (fallen.jump->why != not_of_path) return fallen;  // else nodes hold what moving contact does not
+      }
     for (const double push : pushes) {
       const Vector pushed = start + push / mesh_.length(behind) * behind;
       const auto end = fall_from(loss, mesh_.state(pushed, loss.at.lambda), mesh_.system().energy(event));
@@ -317,8 +318,8 @@ class Falls {
 
   static Fallen fallen_not(const Loss& loss, const char* why) { return {.jump = not_found(loss.at.lambda, why)}; }
 
-  // Where a motion from a state beside the event ends. Empty where it returns to the event: where its energy at rest is
-  // not below that of the event, if that is given.
+  // Where a motion from a state beside the event ends. Empty where it returns to the event: where it comes to rest at
+  // the event itself, which nodes may hold, or where its energy at rest is not below `above`, if that is given.
   std::optional<Fallen> fall_from(const Loss& loss, const State& beside, std::optional<double> above = {}) {
     const Descent descent = descend(mesh_.system(), beside, model_.options().factorization, left_);
     switch (descent.end) {
@@ -338,7 +339,18 @@ class Falls {
     if (above && !(*above - energy > energy_lost * std::max(std::abs(*above), std::abs(energy)))) return std::nullopt;
     Fallen fallen{.jump = std::make_shared<RecordJump>(RecordJump{.lambda = loss.at.lambda}), .rest = descent.state};
     settle(loss, fallen.rest, *fallen.jump);
+    if (fallen.jump->reason.empty() && is_event(loss, fallen)) return std::nullopt;
     return fallen;
+  }
+
+  // Whether a state at rest is that of the event, but for what nodes and moving contact differ by.
+  bool is_event(const Loss& loss, const Fallen& fallen) const {
+    const Vector at = mesh_.unknowns(loss.at);
+    const double of_mesh = mesh_.system().energy(mesh_.state(at, loss.at.lambda)) - loss.energy;
+    const double least =
+        std::max(std::abs(of_mesh), energy_lost * std::max(std::abs(loss.energy), std::abs(fallen.jump->energy)));
+    return fallen.jump->energy_released <= least &&
+           mesh_.distance(mesh_.unknowns(fallen.rest), at) <= mesh_.same_on_path();
   }
 
   // The state at rest in the path's own formulation, counted.

@@ -267,6 +267,30 @@ monitor = [{ name = "z", at = "t", component = "z" }, { name = "floor", wall = "
   EXPECT_EQ(run.record().points.back().lambda, 30.0);
 }
 
+// An arch under a round peg that moves down reaches its limit point between two nodes. With contact at nodes it is
+// still stable at that load, and comes to rest at the same state; from a little farther it snaps to its other side.
+TEST(JumpRuns, DoNotEndAtTheStateThatTheyLeave) {
+  const TracedDeck run(R"(
+title = "An arch under a peg"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 17173.10076109166, I = 1.0 }
+point = { p0 = [0.0, 0.0], p1 = [1.0, 0.0] }
+member.m0 = { from = "p0", to = "p1", theory = "elastica", material = "m", section = "s", elements = 30, via = [0.5, 0.1621381779147173] }
+support = { p0 = ["x", "z", "rotation"], p1 = ["x", "z"] }
+path = { step = 0.05, branches = "jump", stop = { lambda = [-0.3, 1.0] } }
+monitor = [{ name = "mid", at = "m0:0.5", component = "z" }]
+[[wall]]
+name = "w0"
+contact_surface = "axis"
+outline = { type = "circle", centre = [0.5113197745886897, 0.2821381779147173], radius = 0.1 }
+motion = { z = -0.40534544478679324 }
+)");
+  const RecordEvent& snaps = event_of(run, EventKind::limit_point);
+  ASSERT_NE(snaps.jump, nullptr);
+  EXPECT_GT(snaps.jump->energy_released, 1.0);
+  EXPECT_EQ(run.record().points.back().lambda, 1.0);
+}
+
 // A beam that slides hangs on a spring whose force has a maximum of 1: beyond it nothing holds the load.
 TEST(JumpRuns, EndWhereNothingHoldsTheStructure) {
   Session run = test::traced(R"toml(
