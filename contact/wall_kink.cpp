@@ -1,25 +1,33 @@
 #include "contact/wall_kink.hpp"
 
+#include <cmath>
+
 #include "core/unit_tangent.hpp"
 
 namespace arcwall {
 
 std::optional<WallKink> first_kink(const Obstacle& wall, const PlaceInStep& point, double from_lambda,
                                    double to_lambda) {
-  constexpr int digits = 45;  // binary, of the part
+  constexpr int digits = 45;       // binary, of the part
+  constexpr double turned = 1e-9;  // of a straight piece against another one [rad]
   if (!may_have_kinks(wall)) return std::nullopt;
   const auto place = [&](double part) -> Vec2 { return point.from + part * (point.to - point.from); };
   const auto lambda = [&](double part) { return from_lambda + part * (to_lambda - from_lambda); };
   const auto faces = [&](double part) { return wall.faces(place(part), lambda(part)); };
   const auto curvature = [&](double part) { return wall.curvature(place(part), lambda(part)).value; };
   if (!faces(0.0) || !faces(1.0)) return std::nullopt;
-  const double here = curvature(0.0);
-  if (!curvature_jumps(here, curvature(1.0))) return std::nullopt;
+  const auto direction = [&](double part) { return wall.direction(place(part), lambda(part)).value; };
+  const double here = curvature(0.0), heads = direction(0.0);
+  // An arc between two straight pieces may be passed as a whole.
+  const auto is_beyond = [&](double part) {
+    return curvature_jumps(here, curvature(part)) || (here == 0.0 && std::abs(direction(part) - heads) > turned);
+  };
+  if (!is_beyond(1.0)) return std::nullopt;
   double before = 0.0, beyond = 1.0;
   for (int i = 0; i < digits; ++i) {
     const double middle = 0.5 * (before + beyond);
     if (!faces(middle)) return std::nullopt;
-    (curvature_jumps(here, curvature(middle)) ? beyond : before) = middle;
+    (is_beyond(middle) ? beyond : before) = middle;
   }
   if (!curvature_jumps(curvature(before), curvature(beyond))) return std::nullopt;  // it changes fast, but smoothly
   const auto at_rest = [&](const Vec2& position) { return wall.seen_at_rest(position, lambda(beyond)); };

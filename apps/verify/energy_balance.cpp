@@ -7,11 +7,14 @@
 #include <numeric>
 #include <vector>
 
+#include "continuation/path_tolerances.hpp"
+
 namespace arcwall::verify {
 
 namespace {
 
-// The points of a smooth part of a branch, by their numbers in the record: the first and the last included.
+// The points of a smooth part of a branch, by their numbers in the record: the first and the last included. A kink of
+// the path is between two points that coincide.
 struct Piece {
   std::size_t first = 0, last = 0;
 };
@@ -21,8 +24,9 @@ std::vector<Piece> pieces_of(const Record& record, Index branch) {
   for (std::size_t i = 0; i < record.points.size(); ++i) {
     const RecordPoint& point = record.points[i];
     if (point.branch != branch) continue;
-    if (point.step > 0) pieces.back().last = i;
-    if (point.step == 0 || point.rates_after) pieces.push_back({.first = i, .last = i});
+    const bool is_kink = point.step > 0 && point.arc - record.points[i - 1].arc <= coincidence_tolerance;
+    if (point.step > 0 && !is_kink) pieces.back().last = i;
+    if (point.step == 0 || is_kink || point.rates_after) pieces.push_back({.first = i, .last = i});
   }
   std::erase_if(pieces, [](const Piece& piece) { return piece.first == piece.last; });
   return pieces;
@@ -79,7 +83,7 @@ Quadrature integral(const Samples& s, const Samples& a, const Samples& b) {
   Quadrature sum;
   for (std::size_t i = 0; i + 1 < s.size(); ++i) {
     const double value = integral(s, a, b, i, count);
-    const double coarse = count > 2 ? integral(s, a, b, i, count - 1) : a[i] * (b[i + 1] - b[i]);
+    const double coarse = count > 2 ? integral(s, a, b, i, 2) : a[i] * (b[i + 1] - b[i]);
     sum += {.value = value, .error = std::abs(value - coarse)};
   }
   return sum;
@@ -137,7 +141,7 @@ void check_energy_balance(const Model& model, const Record& record, Index branch
   const double unit = model.frame().factor();
   const RecordBranch& of = record.branches.at(static_cast<std::size_t>(branch));
   const double range = of.greatest_lambda - of.least_lambda;
-  const double step = 1e-3 * (range > 0.0 ? range : 1.0);
+  const double step = 2e-4 * (range > 0.0 ? range : 1.0);
   Quadrature work, friction;
   double dissipated_in_run = 0.0, stored = 0.0, magnitude = 0.0;
   for (const Piece& piece : pieces_of(record, branch)) {

@@ -152,9 +152,11 @@ std::optional<StepToKink> step_to_kink(TraceTools& tools, const StepOrigin& orig
   return step;
 }
 
-// Whether a step over a kink has to be taken in parts: it turns too much, or something changes on its way.
+// Whether a step over a kink has to be taken in parts: it turns too much, something changes on its way, or a contact
+// slips over it, whose dissipation is an integral along the way.
 bool is_stopped_by_kink(TraceTools& tools, const StepOrigin& origin, const CorrectorResult& result, double s) {
   if (!tools.system.kink_between(origin.point().state, result.state)) return false;
+  if (!tools.system.slipping(result.state.active_set).empty()) return true;
   StepEnd end{.point = path_point(tools.system, origin.metric, result, origin.point().tangent)};
   const Metric metric = turning_metric(origin, s, tools.options.step.max);
   end.turn = angle_between(metric, origin.point().tangent, end.point.tangent);
