@@ -239,13 +239,27 @@ double energy_of_laws(const Model& model) {
 
 }  // namespace
 
+namespace {
+
+// Of a displacement of the structure's size and of a rotation of 1: what is left of them where a load is taken off.
+Vector last_digits(const PointAtHand& at) {
+  const Vector weights = at.model.system().weights(at.point.state.active_set);
+  Vector digits = Vector::Zero(structure_unknowns(at.model, at.point.state));
+  const double nodes = double(digits.size()) / 3.0;
+  for (Index i = 0; i < digits.size(); ++i)
+    if (weights[i] > 0.0) digits[i] = 16.0 * epsilon / std::sqrt(nodes * weights[i]);
+  return digits;
+}
+
+}  // namespace
+
 Energy energy(const PointAtHand& at) {
   Energy sum{.magnitude = energy_of_laws(at.model)};
   const auto add = [&](double part) {
     sum.value += part;
     sum.magnitude += std::abs(part);
   };
-  const Vector digits = roundoff(at);
+  const Vector digits = last_digits(at);
   for (std::size_t e = 0; e < at.potentials.size(); ++e) {
     const Potential& potential = at.potentials[e];
     add(potential.energy(potential.at));
