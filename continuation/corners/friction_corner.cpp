@@ -45,10 +45,10 @@ double bound_tolerance(const TraceTools& tools, const Corner& corner) {
   return std::max(tools.options.guard_tolerance, 2.0 * corner.slack);
 }
 
-// Whether a guard is zero, or is within the distance below which points of a path coincide: symmetry lets bounds be
-// reached together, up to round-off.
+// Whether a guard is zero, or nearly so and zero at a place along the path that coincides with the corner: symmetry
+// lets bounds be reached together, up to round-off.
 bool is_reached(double guard, double rate, double tolerance) {
-  return guard <= std::max(tolerance, -coincidence_tolerance * rate);
+  return guard <= tolerance || (guard <= coincidence_tolerance && guard <= -coincidence_tolerance * rate);
 }
 
 // The contacts that stand at a bound: those that touch without a force, those that stick with |T| = μ p, and those that

@@ -171,8 +171,8 @@ struct Contact {
   ContactLaw::Method method = ContactLaw::Method::rigid;
   std::optional<ContactPoints> points{};  ///< empty: moving for euler-bernoulli and elastica, else nodes
   std::optional<double> penalty{};        ///< 1/μ, there for every method that needs it [force/length²]
+  double gap_tolerance = 1e-10;           ///< [length]
   FrictionAt friction_at = FrictionAt::touch;
-  double gap_tolerance = 1e-10;  ///< [length]
 
   bool operator==(const Contact&) const = default;
 };

@@ -200,8 +200,12 @@ lambda = [-1.0, 0.3]
 )");
   EXPECT_EQ(reason(session), EndReason::stop);
   for (const RecordPoint& point : session.points()) {
-    if (point.lambda == 0.1) EXPECT_NEAR(point.monitors[0], 0.625382563985, 1e-8);
-    if (point.lambda > 0.0) EXPECT_LE(point.monitors[1], 1e-7);
+    if (point.lambda == 0.1) {
+      EXPECT_NEAR(point.monitors[0], 0.625382563985, 1e-8);
+    }
+    if (point.lambda > 0.0) {
+      EXPECT_LE(point.monitors[1], 1e-7);
+    }
     EXPECT_EQ(total_dissipation(point), 0.0);
   }
   EXPECT_EQ(session.points().back().lambda, 0.3);

@@ -288,7 +288,7 @@ TEST(BadDecks, Monitors) {
       {"name = \"end\"", "name = \"e n d\"", "monitor.1.name", "is no name"},
       {"component = \"reaction-z\"", "", "monitor.1.component", "is missing", elsewhere},
       {"component = \"reaction-z\"", "component = \"u\"", "monitor.1.component",
-       "force-z, friction-force, slip, gap, contact-start, contact-end, max-moment, max-stress, utilisation, …"},
+       "force-z, friction-force, friction-use, dissipation, slip, gap, contact-start, contact-end, max-moment, …"},
       {"component = \"reaction-z\"", "component = \"reaction-y\"", "monitor.1.component", "did you mean reaction-x?"},
       {"at = \"D\"", "at = \"strut:0.5\"", "monitor.1.at", "the nearest are strut:0 and strut:1"},
       {"at = \"D\"", "at = [6.0, 1.0]", "monitor.1.at", "wrong type"},
