@@ -241,7 +241,8 @@ std::vector<bool> StructureBuilder::nodes_with_terms() const {
   std::vector<bool> found(positions_.size(), false);
   for (std::size_t i = 0; i < dofs_.size(); ++i) {
     const auto dof = static_cast<Index>(i);
-    if (!nodal_.load(dof).is_zero() || expected_loads_.contains(dof) || nodal_.is_held(dof) || nodal_.ground_stiffness(dof) != 0.0)
+    if (!nodal_.load(dof).is_zero() || expected_loads_.contains(dof) || nodal_.is_held(dof) ||
+        nodal_.ground_stiffness(dof) != 0.0)
       found[static_cast<std::size_t>(dofs_[i].node)] = true;
   }
   for (const NodalTerms::Spring& spring : nodal_.springs())
