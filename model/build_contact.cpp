@@ -360,12 +360,15 @@ PinchedPlaces pinched_places(const deck::Deck& deck, const SlidingStructure& str
 
 std::vector<std::uint8_t> stand_for_members(const Structure& structure, const std::vector<Candidate>& candidates) {
   std::unordered_map<Index, int> ends_at;  // of each node the members' ends there
-  for (const MemberMesh& mesh : structure.members())
+  std::unordered_map<std::string, const MemberMesh*> named;
+  for (const MemberMesh& mesh : structure.members()) {
+    named.emplace(mesh.name, &mesh);
     for (const Index node : {mesh.nodes.front(), mesh.nodes.back()}) ++ends_at[node];
+  }
   std::vector<std::uint8_t> result;
   for (const Candidate& candidate : candidates) {
     const ContactLabel& label = candidate.label();
-    const MemberMesh& mesh = *deck::find(structure.members(), label.member);
+    const MemberMesh& mesh = *named.at(label.member);
     const bool turns = mesh.rotations.front().has_value();
     const bool at_end = label.fraction == 0.0 || label.fraction == 1.0;
     const Index node = label.fraction == 0.0 ? mesh.nodes.front() : mesh.nodes.back();

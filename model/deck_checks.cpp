@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <variant>
 
@@ -101,20 +102,20 @@ bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::
 
 std::vector<std::string> interference_warnings(const deck::Deck& deck, const MultiplierContact& at_nodes,
                                                const SlidingContact* sliding) {
+  std::set<std::string> outside;  // walls with an interference that no node overlaps with
+  for (const deck::Wall& wall : deck.walls)
+    if (wall.interference > 0.0) outside.insert(wall.name);
+  if (outside.empty() || (sliding != nullptr && sliding->entered(sliding->rest(), 0.0))) return {};
   const State rest{.x = Vector::Zero(at_nodes.size(at_nodes.open_active_set())), .lambda = 0.0};
-  const bool between_nodes = sliding != nullptr && sliding->entered(sliding->rest(), 0.0);
-  std::vector<std::string> warnings;
-  for (const deck::Wall& wall : deck.walls) {
-    bool overlaps = between_nodes;
-    for (Index j = 0; j < at_nodes.contact_count(); ++j) {
-      const Candidate& candidate = at_nodes.candidate(j);
-      overlaps = overlaps || (candidate.label().wall == wall.name && candidate.gap(rest) < 0.0);
-    }
-    if (wall.interference > 0.0 && !overlaps)
-      warnings.push_back("the interference of wall \"" + wall.name +
-                         "\" has no effect: the undeformed structure does not overlap with the wall as it is drawn; "
-                         "draw the wall where it is to be in the end");
+  for (Index j = 0; j < at_nodes.contact_count(); ++j) {
+    const Candidate& candidate = at_nodes.candidate(j);
+    if (outside.contains(candidate.label().wall) && candidate.gap(rest) < 0.0) outside.erase(candidate.label().wall);
   }
+  std::vector<std::string> warnings;
+  for (const std::string& wall : outside)
+    warnings.push_back("the interference of wall \"" + wall +
+                       "\" has no effect: the undeformed structure does not overlap with the wall as it is drawn; "
+                       "draw the wall where it is to be in the end");
   return warnings;
 }
 

@@ -277,6 +277,7 @@ bool acts_in(const Spring& spring, Dof direction) {
 }
 
 double friction_of(const Deck& deck, const Wall& wall, const std::string& member, double fraction) {
+  if (deck.frictions.empty()) return wall.friction;
   const Member* const of = find(deck.members, member);
   const std::string point = of == nullptr ? "" : fraction == 0.0 ? of->from : fraction == 1.0 ? of->to : "";
   const auto fits = [](const std::string& asked, const std::string& is) { return asked.empty() || asked == is; };
@@ -288,6 +289,8 @@ double friction_of(const Deck& deck, const Wall& wall, const std::string& member
 }
 
 bool has_friction(const Deck& deck) {
+  if (deck.frictions.empty())
+    return std::any_of(deck.walls.begin(), deck.walls.end(), [](const Wall& wall) { return wall.friction > 0.0; });
   return std::any_of(deck.walls.begin(), deck.walls.end(), [&](const Wall& wall) {
     return std::any_of(deck.members.begin(), deck.members.end(), [&](const Member& member) {
       const bool concerns = wall.members.empty() ||
