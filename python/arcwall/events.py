@@ -241,17 +241,17 @@ class Event(Value):
     @property
     def sense(self) -> int | None:
         """Slip of that contact after the event: 1 along the wall's tangent, -1 against it, 0 if it sticks, else None."""
-        return {"slip+": 1, "slip-": -1, "stick": 0}.get((self.contact and self.contact.state) or "")
+        return {"slip+": 1, "slip-": -1, "stick": 0}.get((self.contact.state if self.contact else None) or "")
 
     @property
     def T(self) -> float | None:
         """Friction force of that contact [force]; None without friction."""
-        return self.contact and self.contact.friction
+        return self.contact.friction if self.contact else None
 
     @property
     def p(self) -> float | None:
         """Contact force of that contact [force]; None without friction."""
-        return self.contact and self.contact.force
+        return self.contact.force if self.contact else None
 
 
 @dataclass(frozen=True, repr=False)

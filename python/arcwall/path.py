@@ -159,8 +159,9 @@ class Path(Curve):
             raise ValueError("the path has no friction, so no loop has work")
         rows = []
         for stage in (stage_a, stage_b):
-            of = np.flatnonzero([name == stage for name in self["stage"]]) if "stage" in self.columns else []
-            if not len(of):
+            names: list[str] = list(self["stage"]) if "stage" in self.columns else []
+            of = [i for i, name in enumerate(names) if name == stage]
+            if not of:
                 raise ValueError(f"the path has no points of a load step {stage!r}")
             rows.append(of)
         first, last = rows[0][0], rows[1][-1]
