@@ -103,7 +103,7 @@ std::optional<Continuation> tangent_with(TraceTools& tools, const Corner& corner
   way.direction = unit(metric, std::move(way.direction));
   if (!way.direction.dx.allFinite()) return std::nullopt;
   way.relieved = Vector::Zero(now.B.cols());
-  if (solver.inner_is_regular())
+  if (now.B.cols() > 0 && solver.inner_is_regular())
     way.relieved = slip_stiffness(solver, now).diagonal().cwiseProduct(way.direction.dx.tail(now.B.cols())).cwiseAbs() /
                    system.multiplier_scale();
   return way;

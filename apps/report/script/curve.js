@@ -60,7 +60,7 @@ const view_of_events = ({ across, up }) => {
   const seen = (i) => i <= (last.get(points.branch[i]) ?? -1);
   const range = (values, is_in) => range_of(values.filter((_, i) => is_in(i)));
   const ranges = [across.values, up.values].map((values) => [range(values, seen), range(values, () => true)]);
-  const small = 0.4;
+  const small = 0.1;
   const width = ([low, high]) => high - low;
   if (!ranges.some(([near, all]) => width(near) < small * width(all))) return null;
   return ranges.map(([near, all]) => {
