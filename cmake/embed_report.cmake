@@ -3,7 +3,7 @@
 #   cmake -DFOLDER=… -DSCRIPTS=data,curve -DPLOTLY_SCRIPT=… -DMAP_SCRIPT=… -DPLOTLY_LICENCE=… -DOUTPUT=… -P embed_report.cmake
 #
 # Without plotly its three files are empty words.
-foreach(part page.html page.css print_head.html sheet.html picture.html sheet.css plots.js sweep.html sweep.js explore.html explore.css explore.js)
+foreach(part page_head.html page.html page.css print_head.html sheet.html picture.html sheet.css plots.js sweep.html sweep.js explore.html explore.css explore.js)
   file(READ "${FOLDER}/${part}" text)
   string(REPLACE "." "_" name ${part})
   set(${name} "${text}")
@@ -35,14 +35,14 @@ namespace arcwall {
 
 const ReportParts& report_parts() {
   static const ReportParts parts{
-      .page = R\"report(${page_html})report\",
+      .page = R\"report(${page_head_html}${page_html})report\",
       .style = R\"report(${page_css})report\",
       .script = R\"report(${page_js})report\",
       .library = R\"report(${PLOTLY_library})report\",
       .sheet = R\"report(${print_head_html}${sheet_html})report\",
       .picture = R\"report(${print_head_html}${picture_html})report\",
       .sheet_style = R\"report(${sheet_css})report\",
-      .sweep = R\"report(${sweep_html})report\",
+      .sweep = R\"report(${page_head_html}${sweep_html})report\",
       .sweep_script = R\"report(${sweep_js})report\",
       .map_library = R\"report(${MAP_library})report\",
       .explorer_page = R\"report(${explore_html})report\",
