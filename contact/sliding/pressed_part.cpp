@@ -239,7 +239,7 @@ double least_pressure_rate(const SlidingSetting& setting, const SlidingMotion& m
   return apply(least_pressure_gradient(setting, motion.at, node), motion.direction);
 }
 
-// The pressure is linear over the element: ∫ (p₀ + p₁ − p₀ ξ) (1 − 3ξ² + 2ξ³) h dξ.
+// The pressure is linear over the element: ∫ (p₀ + (p₁ − p₀) ξ) (1 − 3ξ² + 2ξ³) h dξ.
 PressureAtEnd pressure_at_end(const SlidingSetting& setting, const SlidingState& at, std::size_t segment, bool last) {
   const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
   const double h = extent(setting, at, part).length / part.elements;

@@ -36,7 +36,8 @@ struct Continuation {
   std::vector<ModeOfContact> modes{};
   State state{};
   Direction direction{};  // unit
-  Vector relieved{};      // by each slip alone of the friction that drives it [scale of guards]
+  std::vector<Index> slipping{};
+  Vector relieved{};  // by each slip alone of the friction that drives it [scale of guards]
   std::optional<Index> unstable{};
   double dissipation = 0.0;
 };
@@ -102,6 +103,7 @@ std::optional<Continuation> tangent_with(TraceTools& tools, const Corner& corner
   if (!solver.tangent(metric.row(across), way.direction, columns)) return std::nullopt;
   way.direction = unit(metric, std::move(way.direction));
   if (!way.direction.dx.allFinite()) return std::nullopt;
+  way.slipping = system.slipping(way.state.active_set);
   way.relieved = Vector::Zero(now.B.cols());
   if (now.B.cols() > 0 && solver.inner_is_regular())
     way.relieved = slip_stiffness(solver, now).diagonal().cwiseProduct(way.direction.dx.tail(now.B.cols())).cwiseAbs() /
@@ -114,8 +116,7 @@ int sign_of_rate(double value) { return value > 0.0 ? 1 : value < 0.0 ? -1 : 0; 
 // 1 where a contact slips on along a way, −1 where it would slip back, 0 where it does neither within the error of
 // rates. A stiff body slips by less than the error of other motions; then what its slip alone relieves tells.
 int sense_of_slip(const System& system, const Continuation& way, Index contact, double no_motion, double no_force) {
-  const std::vector<Index> slipping = system.slipping(way.state.active_set);
-  const auto its = std::find(slipping.begin(), slipping.end(), contact) - slipping.begin();
+  const auto its = std::find(way.slipping.begin(), way.slipping.end(), contact) - way.slipping.begin();
   const double rate = system.slip_rate(way.state, way.direction, contact);
   if (std::abs(rate) <= no_motion && way.relieved[its] <= no_force) return 0;
   return sign_of_rate(rate);
@@ -137,7 +138,7 @@ std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& cor
     double& most = is_gap ? most_motion : most_force;
     most = std::max(most, std::abs(along.rates[j]));
   }
-  for (const Index j : system.slipping(active_set))
+  for (const Index j : way.slipping)
     most_motion = std::max(most_motion, std::abs(system.slip_rate(way.state, way.direction, j)));
   const double no_motion = rate_noise * most_motion, no_force = rate_noise * most_force;
   std::vector<ModeOfContact> found;
@@ -169,7 +170,7 @@ std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& cor
 // −Σ T v, v the rate of slip.
 double dissipation_along(const System& system, const Continuation& way) {
   double power = 0.0;
-  for (const Index j : system.slipping(way.state.active_set)) {
+  for (const Index j : way.slipping) {
     const double sense = slip_sense(system.mode(way.state.active_set, j));
     power -= system.friction_force(way.state, j) * sense * system.slip_rate(way.state, way.direction, j);
   }
@@ -186,12 +187,11 @@ Direction motion_along(const TraceTools& tools, const Corner& corner, const Stat
 // Of ways that are one motion, that with the fewest slips.
 void add_way(const Metric& open_metric, const TraceTools& tools, const Corner& corner, Continuation way,
              std::vector<Continuation>& ways) {
-  const auto slips_of = [&](const Continuation& one) { return tools.system.slipping(one.state.active_set).size(); };
   const Direction motion = motion_along(tools, corner, way.state, way.direction);
   for (Continuation& known : ways) {
     const bool same = open_metric.inner(motion_along(tools, corner, known.state, known.direction), motion) > same_way;
-    if (!same || slips_of(way) == slips_of(known)) continue;
-    if (slips_of(way) < slips_of(known)) known = std::move(way);
+    if (!same || way.slipping.size() == known.slipping.size()) continue;
+    if (way.slipping.size() < known.slipping.size()) known = std::move(way);
     return;
   }
   ways.push_back(std::move(way));

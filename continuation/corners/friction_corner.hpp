@@ -11,7 +11,7 @@ namespace arcwall {
 /// the path.
 std::vector<EventDetector> slip_end_detectors(const System& system);
 
-/// Leaves a point at which contacts with friction may change what they do (docs/theory.md, section 17). `landed`: the
+/// Leaves a point at which contacts with friction may change what they do (docs/theory.md, section 18). `landed`: the
 /// guard that was landed on, if one was; `ended`: the contact whose slip has ended there, if one has.
 CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optional<Index> landed,
                                   std::optional<Index> ended);
