@@ -279,19 +279,13 @@ struct MovedDirections {
 
 }  // namespace
 
-std::vector<NodeDirection> free_directions(const Structure& structure, const std::vector<Index>& nodes) {
-  const MovedDirections all(structure, nodes);
-  std::vector<NodeDirection> free;
-  for (std::size_t i = 0; i < all.rows.size(); ++i)
-    if ((all.rows[i].array().abs() > least_motion).any()) free.push_back(all.directions[i]);
-  return free;
-}
-
-// By pivots: each is the direction that is moved most by what the ones before leave free.
-std::vector<NodeDirection> determinate_directions(const Structure& structure, const std::vector<Index>& nodes) {
+// The fewest by pivots: each is the direction that is moved most by what the ones before leave free.
+FreeDirections free_directions(const Structure& structure, const std::vector<Index>& nodes) {
   constexpr double clearly = 1.0 + 1e-9;  // of two alike the first
   MovedDirections left(structure, nodes);
-  std::vector<NodeDirection> chosen;
+  FreeDirections free;
+  for (std::size_t i = 0; i < left.rows.size(); ++i)
+    if ((left.rows[i].array().abs() > least_motion).any()) free.all.push_back(left.directions[i]);
   while (!left.rows.empty()) {
     std::size_t pivot = 0;
     for (std::size_t i = 1; i < left.rows.size(); ++i)
@@ -299,9 +293,9 @@ std::vector<NodeDirection> determinate_directions(const Structure& structure, co
     if (left.rows[pivot].norm() <= least_motion) break;
     const Vector taken = left.rows[pivot].normalized();
     for (Vector& row : left.rows) row -= row.dot(taken) * taken;
-    chosen.push_back(left.directions[pivot]);
+    free.fewest.push_back(left.directions[pivot]);
   }
-  return chosen;
+  return free;
 }
 
 }  // namespace arcwall

@@ -27,11 +27,12 @@ struct NodeDirection {
   Dof dof;
 };
 
-/// The directions of those nodes in which some motion without strain moves them.
-std::vector<NodeDirection> free_directions(const Structure& structure, const std::vector<Index>& nodes);
+struct FreeDirections {
+  std::vector<NodeDirection> all{};     ///< in which some motion without strain moves those nodes
+  std::vector<NodeDirection> fewest{};  ///< of these, that stop what all stop: springs there are statically determinate
+};
 
-/// As few of these as stop all motions without strain that they can stop together: springs there are statically
-/// determinate. They bear what loads and contact leave out of balance, and nothing where the structure is deformed.
-std::vector<NodeDirection> determinate_directions(const Structure& structure, const std::vector<Index>& nodes);
+/// The directions of those nodes in which motions without strain move them.
+FreeDirections free_directions(const Structure& structure, const std::vector<Index>& nodes);
 
 }  // namespace arcwall

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -75,10 +76,13 @@ double stiffness_between(const StructureOfDeck& described, const std::vector<Nod
   structure->linearize({.x = Vector::Zero(structure->size({})), .lambda = 0.0}, at_rest);
   BorderedSolver solver;
   if (solver.factorize(at_rest, 0) != FactorStatus::ok) return 0.0;
-  Matrix flexibility = Matrix::Zero(structure->size({}), static_cast<Index>(moved.size()));
-  for (std::size_t i = 0; i < moved.size(); ++i) flexibility(moved[i], static_cast<Index>(i)) = 1.0;
-  if (!solver.solve_inner(flexibility)) return 0.0;
-  return 1.0 / flexibility(moved, Eigen::all).norm();
+  double squared = 0.0;
+  for (const Index one : moved) {
+    Matrix column = Vector::Unit(structure->size({}), one);
+    if (!solver.solve_inner(column)) return 0.0;
+    for (const Index other : moved) squared += column(other, 0) * column(other, 0);
+  }
+  return 1.0 / std::sqrt(squared);
 }
 
 // Springs at those places in all directions that move, which keep what is symmetric so, soft beside the softest member
@@ -86,12 +90,10 @@ double stiffness_between(const StructureOfDeck& described, const std::vector<Nod
 LooseHolds holds_at(const StructureOfDeck& described, const std::vector<NodePlace>& places, double softness,
                     double softest_member) {
   const auto structure = described.builder.build();
-  const std::vector<Index> nodes = nodes_of(places);
-  const std::vector<NodeDirection> all = free_directions(*structure, nodes),
-                                   fewest = determinate_directions(*structure, nodes);
-  const double body = stiffness_between(described, all, fewest);
-  return body > 0.0 ? holds_in(all, places, softness * std::min(softest_member, body))
-                    : holds_in(fewest, places, softness * softest_member);
+  const FreeDirections free = free_directions(*structure, nodes_of(places));
+  const double body = stiffness_between(described, free.all, free.fewest);
+  return body > 0.0 ? holds_in(free.all, places, softness * std::min(softest_member, body))
+                    : holds_in(free.fewest, places, softness * softest_member);
 }
 
 // A joint or a node of a member, and how far it is from the walls that concern the member [length].
@@ -254,7 +256,7 @@ LooseHolds holds_until_stiffened(const deck::Deck& deck) {
   std::vector<Index> joints;
   for (const auto& [name, node] : described.places.joints) joints.push_back(node);
   const double stiffness = LooseHolds::softness * softest_stiffness(deck, *structure);
-  const LooseHolds found = holds_in(free_directions(*structure, joints), joints_at(described, joints), stiffness);
+  const LooseHolds found = holds_in(free_directions(*structure, joints).all, joints_at(described, joints), stiffness);
   return !found.empty() && hold_all(deck, found) ? found : LooseHolds{};
 }
 

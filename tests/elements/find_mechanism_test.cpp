@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "elements/mechanism.hpp"
 #include "tests/support/models.hpp"
 
@@ -178,28 +180,10 @@ TEST(FindMechanism, SoundModelsHaveNone) {
   EXPECT_FALSE(find_mechanism(*test::Cantilever{.elements = 1, .tip_force = 1.0}.structure()).has_value());
 }
 
-// A beam that is held in x at one end moves in z at both, and by turning; two springs leave it nothing.
-TEST(FreeDirections, AreThoseOfAllMotions) {
-  for (const bool sprung : {false, true}) {
-    StructureBuilder builder;
-    builder.add_joint({0.0, 0.0});
-    builder.add_joint({2.0, 0.0});
-    builder.add_member({.name = "beam",
-                        .from = 0,
-                        .to = 1,
-                        .axis = straight_axis({0.0, 0.0}, {2.0, 0.0}),
-                        .section = {.E = 1.0, .A = 1.0, .I = 1.0}});
-    builder.fix(builder.dof(0, Dof::x));
-    if (sprung)
-      for (const Index end : {0, 1}) builder.add_ground_stiffness(builder.dof(end, Dof::z), 1e-3);
-    const std::vector<NodeDirection> free = free_directions(*builder.build(), {0, 1});
-    ASSERT_EQ(free.size(), sprung ? 0u : 2u);
-    for (const NodeDirection& one : free) EXPECT_EQ(one.dof, Dof::z);
-  }
-}
+namespace {
 
-// A free beam has three motions, and both ends move in x and z: three directions hold it, and leave its length alone.
-TEST(DeterminateDirections, AreAsManyAsThereAreMotions) {
+// One beam element between joints at 0 and at 2 on the x axis.
+StructureBuilder free_beam() {
   StructureBuilder builder;
   builder.add_joint({0.0, 0.0});
   builder.add_joint({2.0, 0.0});
@@ -208,13 +192,36 @@ TEST(DeterminateDirections, AreAsManyAsThereAreMotions) {
                       .to = 1,
                       .axis = straight_axis({0.0, 0.0}, {2.0, 0.0}),
                       .section = {.E = 1.0, .A = 1.0, .I = 1.0}});
-  EXPECT_EQ(free_directions(*builder.build(), {0, 1}).size(), 4u);
-  const std::vector<NodeDirection> held = determinate_directions(*builder.build(), {0, 1});
-  ASSERT_EQ(held.size(), 3u);
-  EXPECT_EQ(std::count_if(held.begin(), held.end(), [](const NodeDirection& one) { return one.dof == Dof::x; }), 1);
-  for (const NodeDirection& one : held) builder.add_ground_stiffness(builder.dof(one.node, one.dof), 1e-3);
+  return builder;
+}
+
+}  // namespace
+
+// A beam that is held in x at one end moves in z at both, and by turning; two springs leave it nothing.
+TEST(FreeDirections, AreThoseOfAllMotions) {
+  for (const bool sprung : {false, true}) {
+    StructureBuilder builder = free_beam();
+    builder.fix(builder.dof(0, Dof::x));
+    if (sprung)
+      for (const Index end : {0, 1}) builder.add_ground_stiffness(builder.dof(end, Dof::z), 1e-3);
+    const std::vector<NodeDirection> free = free_directions(*builder.build(), {0, 1}).all;
+    ASSERT_EQ(free.size(), sprung ? 0u : 2u);
+    for (const NodeDirection& one : free) EXPECT_EQ(one.dof, Dof::z);
+  }
+}
+
+// A free beam has three motions, and both ends move in x and z: three directions hold it, and leave its length alone.
+TEST(FreeDirections, AreHeldByAsManyAsThereAreMotions) {
+  StructureBuilder builder = free_beam();
+  const FreeDirections free = free_directions(*builder.build(), {0, 1});
+  EXPECT_EQ(free.all.size(), 4u);
+  ASSERT_EQ(free.fewest.size(), 3u);
+  EXPECT_EQ(
+      std::count_if(free.fewest.begin(), free.fewest.end(), [](const NodeDirection& one) { return one.dof == Dof::x; }),
+      1);
+  for (const NodeDirection& one : free.fewest) builder.add_ground_stiffness(builder.dof(one.node, one.dof), 1e-3);
   EXPECT_FALSE(find_mechanism(*builder.build()));
-  EXPECT_TRUE(determinate_directions(*builder.build(), {0, 1}).empty());
+  EXPECT_TRUE(free_directions(*builder.build(), {0, 1}).fewest.empty());
 }
 
 // A beam on one hinge turns about it, unless a spring holds its other end or its rotation.
