@@ -11,8 +11,6 @@ namespace {
 deck::Vector times(double factor, const deck::Vector& v) { return {.x = factor * v.x, .z = factor * v.z}; }
 
 void scale(deck::PointLoad& load, double factor) {
-  load.has_force = load.force != deck::Vector{};
-  load.has_moment = load.moment != 0.0;
   load.force = times(factor, load.force);
   load.moment *= factor;
 }
@@ -27,6 +25,10 @@ void scale(deck::Heat& heat, double factor) {
 }
 
 deck::Load held(deck::Load load, double gone) {
+  if (auto* const at_point = std::get_if<deck::PointLoad>(&load.action)) {
+    at_point->has_force = at_point->force != deck::Vector{};
+    at_point->has_moment = at_point->moment != 0.0;
+  }
   std::visit([gone](auto& action) { scale(action, gone); }, load.action);
   load.constant = true;
   return load;
