@@ -187,4 +187,21 @@ component = "force-z"
          drag + stages;
 }
 
+/// A run that is killed after so many points and taken up again is the whole run to the last bit.
+inline void expect_resumed(const std::string& text, const Session& whole, std::size_t killed) {
+  Session first = session_of(text);
+  while (first.points().size() < killed) ASSERT_NE(first.next(), nullptr);
+  Session rest = Session::from(first.checkpoint(), "checkpoint", Session::Resume::go_on);
+  while (rest.next() != nullptr) {
+  }
+  ASSERT_EQ(rest.points().size(), whole.points().size());
+  for (std::size_t i = 0; i < whole.points().size(); ++i) {
+    EXPECT_EQ(rest.points()[i].lambda, whole.points()[i].lambda);
+    EXPECT_EQ(rest.points()[i].state.x, whole.points()[i].state.x);
+    EXPECT_EQ(rest.points()[i].dissipation, whole.points()[i].dissipation);
+    EXPECT_EQ(rest.points()[i].monitors, whole.points()[i].monitors);
+  }
+  EXPECT_EQ(rest.events().size(), whole.events().size());
+}
+
 }  // namespace arcwall::friction_test

@@ -247,19 +247,7 @@ TEST(FrictionPath, RunsResumedAtEventsAreEqualToTheLastBit) {
   EXPECT_GE(killed.size(), 7U);
   for (const std::size_t at : killed) {
     if (at >= points) continue;
-    Session first = session_of(text);
-    while (first.points().size() < at) ASSERT_NE(first.next(), nullptr);
-    Session rest = Session::from(first.checkpoint(), "checkpoint", Session::Resume::go_on);
-    while (rest.next() != nullptr) {
-    }
-    ASSERT_EQ(rest.points().size(), points);
-    for (std::size_t i = 0; i < points; ++i) {
-      EXPECT_EQ(rest.points()[i].lambda, whole.points()[i].lambda);
-      EXPECT_EQ(rest.points()[i].state.x, whole.points()[i].state.x);
-      EXPECT_EQ(rest.points()[i].dissipation, whole.points()[i].dissipation);
-      EXPECT_EQ(rest.points()[i].monitors, whole.points()[i].monitors);
-    }
-    EXPECT_EQ(rest.events().size(), whole.events().size());
+    expect_resumed(text, whole, at);
   }
 }
 

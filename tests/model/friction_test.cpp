@@ -134,17 +134,7 @@ TEST(Friction, ResumedRunsAreEqualToTheLastBit) {
   const Session whole = run_of(text);
   const std::size_t points = whole.points().size();
   for (const std::size_t killed : {std::size_t{2}, points / 3, points / 2, points - 3}) {
-    Session first = session_of(text);
-    while (first.points().size() < killed) ASSERT_NE(first.next(), nullptr);
-    Session rest = Session::from(first.checkpoint(), "checkpoint", Session::Resume::go_on);
-    while (rest.next() != nullptr) {
-    }
-    ASSERT_EQ(rest.points().size(), points);
-    for (std::size_t i = 0; i < points; ++i) {
-      EXPECT_EQ(rest.points()[i].lambda, whole.points()[i].lambda);
-      EXPECT_EQ(rest.points()[i].state.x, whole.points()[i].state.x);
-    }
-    EXPECT_EQ(rest.events().size(), whole.events().size());
+    expect_resumed(text, whole, killed);
   }
 }
 
