@@ -28,7 +28,6 @@ constexpr double negligible = 1e-9;       // of what changes a guard: it does no
 constexpr double agreeing = 1e-6;         // relative difference of what several guards say
 constexpr double persistent = 1e-6;       // of the most that it could be wᵀ F_κ is zero
 constexpr double roundoff = 1e-10;        // of the loads in what a step of the number changes
-constexpr double symmetric = 1e-6;        // a ratio of two coefficients below which the first is zero
 constexpr double singular_beside = 1e-7;  // where K is singular to the last digit its null vectors come from beside
 
 bool is_change_of_contact(EventKind kind) {
@@ -248,7 +247,6 @@ bool EventDerivatives::begin_crossing(const BranchPoint& point) {
       bend_(i, j) = bend_(j, i) = of.value;
       bend_off_(i, j) = bend_off_(j, i) = of.off;
     }
-  is_symmetric_ = point.type == BranchType::pitchfork || std::abs(bend_(0, 0)) <= symmetric * std::abs(bend_(0, 1));
   return bend_.allFinite();
 }
 
@@ -538,14 +536,13 @@ EventDerivative EventDerivatives::by_crossing(const std::vector<SystemSample>& s
     if (found.value) found.rates = rates(motion, samples);
     return found;
   };
-  if (is_symmetric_) {
-    const double slope = -right[0] / bend_(0, 1);
-    return with_rates({.value = slope, .off = (off[0] + std::abs(slope) * bend_off_(0, 1)) / std::abs(bend_(0, 1))},
-                      -(right[1] + bend_(1, 1) * slope) / bend_(1, 0));
-  }
   const double determinant = bend_.determinant();
   const double slope = -(bend_(0, 0) * right[1] - bend_(1, 0) * right[0]) / determinant;
-  const double parts = std::abs(bend_(0, 0)) * off[1] + std::abs(bend_(1, 0)) * off[0];
+  const Eigen::Matrix2d B = bend_.cwiseAbs();
+  const double off_determinant =
+      bend_off_(0, 0) * B(1, 1) + B(0, 0) * bend_off_(1, 1) + 2.0 * B(0, 1) * bend_off_(0, 1);
+  const double parts = B(0, 0) * off[1] + B(1, 0) * off[0] + bend_off_(0, 0) * std::abs(right[1]) +
+                       bend_off_(1, 0) * std::abs(right[0]) + std::abs(slope) * off_determinant;
   return with_rates({.value = slope, .off = parts / std::abs(determinant)},
                     -(bend_(1, 1) * right[0] - bend_(0, 1) * right[1]) / determinant);
 }

@@ -112,7 +112,6 @@ class EventDerivatives {
   Vector left_;                      // of a branch point: the left null vector w,
   double load_work_ = 0.0;           // the most work of the loads along it,
   std::vector<Direction> kernel_;    // the null vectors of [J F_λ]: the mode, and one with λ = 1,
-  bool is_symmetric_ = false;        // whether it is a pitchfork,
   Eigen::Matrix2d bend_, bend_off_;  // and wᵀ D²F of these
 };
 

@@ -249,6 +249,26 @@ member.c = { from = "A", to = "B", theory = "elastica", elements = 16, material 
 
 // Both quarter points of a beam under a force at its middle touch hills at one λ. By E, which serves both, λ has a
 // slope; by the height of one of them it has a corner, since the other one does not follow.
+// A part beside a zone on an inclined wall buckles. It is nearly straight: its crossing is one of two curves whose
+// second derivative along the mode is small beside the others, but not zero.
+TEST(Sensitivity, OfABranchPointThatIsNearlyAPitchfork) {
+  expect_agreement(R"toml(
+title = "A bent strip is pushed against an inclined wall"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 34114.5, I = 1.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0] }
+member.strip = { from = "a", to = "b", theory = "euler-bernoulli", material = "m", section = "s", elements = 20, via = [0.5, -0.0191838] }
+support = { a = ["x", "z", "rotation"], b = ["x", "z", "rotation"] }
+path = { step = 0.05, branches = "primary", jumps = false, stop = { lambda = [-0.3, 1.0] } }
+prescribed = [{ at = "b", x = -0.114502, z = -0.014866 }]
+[[wall]]
+name = "w"
+contact_surface = "axis"
+outline = { type = "half-plane", point = [0.5, -0.1078886], normal = [-0.0621593, 0.9980662] }
+)toml",
+                   {{.key = "point.b.0", .step = 1e-4}, {.key = "wall.w.outline.point.1", .step = 1e-5}}, 1e-5);
+}
+
 TEST(Sensitivity, HasNoSlopeWhereContactsWouldPart) {
   const std::string deck = R"toml(
 title = "A beam over two hills"
