@@ -180,9 +180,7 @@ class NodalTerms {
       energy += 0.5 * spring.stiffness * stretch * stretch;
     }
     for (const LawSpring& spring : law_springs_) energy += spring.law->at(stretch_of(spring, displacement_of)).energy;
-    for (const PressedEnd& end : pressed_ends_)
-      for (const Index dof : {end.x, end.z})
-        if (!is_held(dof)) energy += force_of(end, dof, lambda, displacement_of) * displacement_of(dof);
+    for (const PressedEnd& end : pressed_ends_) energy += energy_of(end, lambda, displacement_of);
     return energy;
   }
 
@@ -291,6 +289,19 @@ class NodalTerms {
       if (i >= 0) out.K.coeffRef(i, i) += k;
     if (a >= 0 && b >= 0) out.K.coeffRef(std::max(a, b), std::min(a, b)) -= k;
     if ((a >= 0) != (b >= 0)) out.ground.push_back({.row = std::max(a, b), .column = std::max(a, b), .stiffness = k});
+  }
+
+  // With one direction free the force on it times its displacement, since the other is given. With both given: p times
+  // the area that the radius to the joint has swept, by the constant displacements first, then by those in λ.
+  template <class DisplacementOf>
+  double energy_of(const PressedEnd& end, double lambda, const DisplacementOf& displacement_of) const {
+    const double to_x = force_of(end, end.x, lambda, displacement_of) * displacement_of(end.x);
+    const double to_z = force_of(end, end.z, lambda, displacement_of) * displacement_of(end.z);
+    if (!is_held(end.x)) return to_x;
+    if (!is_held(end.z)) return to_z;
+    const Driven x = support(end.x), z = support(end.z);
+    const double bend = 0.5 * lambda * (x.constant * z.proportional - z.constant * x.proportional);
+    return to_x + to_z + end.excess.at(lambda) * bend;
   }
 
   // The force of a pressed end on one of its degrees of freedom, and its rate by λ at fixed unknowns.

@@ -6,12 +6,6 @@
 
 namespace arcwall {
 
-namespace {
-
-// Of the triangle of an origin and two places, a × b.
-
-}  // namespace
-
 // With b = φ1 − φ2 and J r = perp(r): ∂V/∂r1 = ½ J r2 − b c/6, ∂V/∂r2 = −½ J r1 + b c/6, ∂V/∂φ1 = |c|²/12 = −∂V/∂φ2.
 StretchLoad::Response pressure_on_stretch(const Vec2& r1, double angle1, const Vec2& r2, double angle2) {
   const Vec2 c = r2 - r1;

@@ -422,7 +422,8 @@ void add_springs(const Model& model, const State& state, std::vector<Potential>&
 }
 
 // Where pressure ends, ½ p (−z δx + x δz) of the place (x, z) is left beside the areas: with z given, −½ p z x, and
-// with x given ½ p x z.
+// with x given ½ p x z. With both given it is p times the area between the ways to them, of constant parts c and then
+// of λ d, and the rest place: ½ (x₀ u_z − z₀ u_x + λ c × d).
 void add_pressed_ends(const Model& model, const State& state, std::vector<Potential>& to) {
   const SlidingStructure* body = model.sliding_structure();
   for (const NodalTerms::PressedEnd& end : model.structure().nodal_terms().pressed_ends()) {
@@ -438,11 +439,15 @@ void add_pressed_ends(const Model& model, const State& state, std::vector<Potent
       potential.at[i] = body != nullptr ? body->value(sliding_mesh(state), mesh_state_of(state), dof)
                                         : model.structure().value(state, dof);
     }
-    const double by_x = potential.unknowns[0] >= 0 ? -1.0 : 0.0, by_z = potential.unknowns[1] >= 0 ? 1.0 : 0.0;
+    const bool is_given = potential.unknowns[0] < 0 && potential.unknowns[1] < 0;
+    const double by_x = is_given || potential.unknowns[0] >= 0 ? -1.0 : 0.0;
+    const double by_z = is_given || potential.unknowns[1] >= 0 ? 1.0 : 0.0;
+    const Vec2 rates_of_place = potential.rates, constant = Vec2(potential.at) - state.lambda * rates_of_place;
+    const double beside = is_given ? state.lambda * cross(constant, rates_of_place) : 0.0;
     const double p = end.excess.at(state.lambda);
     const Vec2 rest = end.rest;
     potential.energy = [=](const Vector& u) {
-      return 0.5 * p * (by_x * (rest.y() + u[1]) * u[0] + by_z * (rest.x() + u[0]) * u[1]);
+      return 0.5 * p * (by_x * (rest.y() + u[1]) * u[0] + by_z * (rest.x() + u[0]) * u[1] + beside);
     };
     potential.gradient = [=](const Vector& u) {
       return Vector(0.5 * p * Vec2(by_x * (rest.y() + u[1]) + by_z * u[1], by_z * (rest.x() + u[0]) + by_x * u[0]));

@@ -44,7 +44,8 @@ Vector end_forces(const Element& element, const Vector& u) {
 }
 
 // An arch from (−1, 0) over the crown (0, 1) in two members, pressed from outside by p; joints 0, 1 and 2.
-StructureBuilder arch(const test::BeamTheory& theory, int elements, double EA = 1e4) {
+StructureBuilder arch(const test::BeamTheory& theory, int elements, double EA = 1e4,
+                      const Driven& pressure = {.proportional = 1.0}) {
   StructureBuilder builder;
   const Vec2 places[] = {{-1.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}};
   for (const Vec2& place : places) builder.add_joint(place);
@@ -59,7 +60,7 @@ StructureBuilder arch(const test::BeamTheory& theory, int elements, double EA = 
                         .order = theory.order,
                         .section = test::section_of(EA, 1.0, EA),
                         .elements = elements});
-    builder.add_pressure(m, {.proportional = 1.0});
+    builder.add_pressure(m, pressure);
   }
   return builder;
 }
@@ -157,6 +158,31 @@ TEST(Pressure, HasAPotentialWhereItsEndsAreHeldInOneDirection) {
         }
       }
     }
+}
+
+// The energy grows by the work that moved supports do, whichever way the members run.
+TEST(Pressure, EnergyGrowsByTheWorkOfMovedSupports) {
+  test::Numbers numbers(134);
+  const test::BeamTheory theories[] = {{.theory = Theory::euler_bernoulli}, {.theory = Theory::reissner, .order = 2}};
+  for (const test::BeamTheory& theory : theories) {
+    StructureBuilder builder = arch(theory, 2, 20.0, {.constant = 1.5});
+    builder.fix(builder.dof(0, Dof::x), {.proportional = 0.3});
+    builder.fix(builder.dof(0, Dof::z), {.constant = 0.1});
+    builder.fix(builder.dof(2, Dof::x), {.constant = 0.2, .proportional = -0.4});
+    builder.fix(builder.dof(2, Dof::z), {.constant = -0.3, .proportional = 0.25});
+    const auto structure = builder.build();
+    const State state{.x = 0.05 * numbers.vector(structure->size({})), .lambda = 0.7};
+    double power = 0.0;
+    structure->nodal_terms().for_each_moved_support(
+        [&](Index dof, double rate) { power += structure->reaction(state, dof) * rate; });
+    constexpr double step = 1e-4;
+    const auto energy = [&](double by) {
+      State moved = state;
+      moved.lambda += by;
+      return structure->energy(moved);
+    };
+    EXPECT_NEAR((energy(step) - energy(-step)) / (2.0 * step), power, 1e-7 * (1.0 + std::abs(power)));
+  }
 }
 
 // In equilibrium the supports bear p across the line between them, whatever the arch does and wherever the origin is.
