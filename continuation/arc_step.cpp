@@ -148,12 +148,11 @@ CornerPassed pass_corner(TraceTools& tools, const TracerState& state, const ArcE
 }
 
 // What is known just behind a change of contacts.
-void leave_corner(const TraceTools& tools, const CornerPassed& passed, Departure& leave) {
+void leave_corner(const CornerPassed& passed, Departure& leave) {
   if (passed.end) return;
   const PathPoint& next = passed.ahead();
-  const std::vector<int> signs = signs_at(tools.detectors, next);
-  for (std::size_t i = 0; i < signs.size(); ++i)
-    if (signs[i] != 0 || passed.entered) leave.signs[i] = signs[i];
+  for (std::size_t i = 0; i < passed.signs.size(); ++i)
+    if (passed.signs[i] != 0 || passed.entered) leave.signs[i] = passed.signs[i];
   leave.negative_eigenvalues = next.negative_eigenvalues;
   leave.count_after = next.count;
 }
@@ -242,7 +241,7 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
   const bool new_contacts = end.landing || state.from.known_end;
   if (passed) {
     accepted.leave.count_after = origin.from.count_after;
-    leave_corner(tools, *passed, accepted.leave);
+    leave_corner(*passed, accepted.leave);
     accepted.corners_without_progress = passed->without_progress;
     std::move(passed->events.begin(), passed->events.end(), std::back_inserter(accepted.arc.events));
     accepted.visit = std::move(passed->visit);

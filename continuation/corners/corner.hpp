@@ -36,6 +36,7 @@ struct EnteredActiveSet {
 struct CornerPassed {
   PathPoint at{};  ///< the same place on the active set ahead; behind, if the active set begins with a span
   std::optional<EnteredActiveSet> entered{};  ///< that begins with a span
+  std::vector<int> signs{};                   ///< of the detectors' values ahead
   std::vector<Event> events{};                ///< at `at`
   std::optional<BranchEnd> end{};             ///< why nothing can be followed, where that is so
   std::optional<CornerVisit> visit{};         ///< to be remembered
@@ -58,8 +59,12 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound);
 /// shorter than its bound, and grows: that one is not passed.
 std::optional<Index> bound_passed_at(const PathPoint& at, double tolerance);
 
-/// λ or a monitor turns between the signs before a corner and a point behind it: an event each, like `event`.
-void add_turns(const TraceTools& tools, const std::vector<int>& signs_before, const PathPoint& behind, Event event,
+/// Returns the signs of the detectors' values behind a corner that one way leaves. Where the counts exclude that λ
+/// turns there, λ′ of another sign is round-off, and the sign is that of before.
+std::vector<int> signs_behind_corner(const TraceTools& tools, const Corner& corner, const PathPoint& behind);
+
+/// λ or a monitor turns between the signs before a corner and behind it: an event each, like `event`.
+void add_turns(const TraceTools& tools, const std::vector<int>& before, const std::vector<int>& behind, Event event,
                std::vector<Event>& events);
 
 }  // namespace arcwall

@@ -485,7 +485,8 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
   passed.events = events_between(tools, corner, at, event);
   for (const Event& change : passed.events)
     event.guards.insert(event.guards.end(), change.guards.begin(), change.guards.end());
-  if (!corner.begins_branch) add_turns(tools, corner.signs, at, event, passed.events);
+  passed.signs = signs_at(tools.detectors, at);
+  if (!corner.begins_branch) add_turns(tools, corner.signs, passed.signs, event, passed.events);
   passed.at = std::move(at);
   return passed;
 }

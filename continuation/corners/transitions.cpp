@@ -72,7 +72,7 @@ double lies_back_by(const PathPoint& bound, const PathPoint& change) {
 // The corner's events: the transition's own, and what turns with it. `ahead` is the nearest point of the active set
 // ahead.
 void add_events(TraceTools& tools, const Corner& corner, const PathPoint& at, const Entered& entered,
-                const PathPoint& ahead, std::vector<Event>& events) {
+                const PathPoint& ahead, CornerPassed& passed) {
   const Transition& transition = *entered.transition;
   Event event{.state = at.state,
               .arc = at.arc,
@@ -91,11 +91,12 @@ void add_events(TraceTools& tools, const Corner& corner, const PathPoint& at, co
       event.lambda_uncertainty = entered.at.unsettled * corner.lambda_scale + lies_back_by(at, entered.at) +
                                  scatter_of(tools, entered, corner.lambda_scale);
     }
-    events.push_back(event);
+    passed.events.push_back(event);
     event.guards.clear();
     event.continuum.reset();
   }
-  add_turns(tools, corner.signs, ahead, event, events);
+  passed.signs = signs_behind_corner(tools, corner, ahead);
+  add_turns(tools, corner.signs, passed.signs, event, passed.events);
 }
 
 // Whether one direction more, or less, gives way with a span that grows while λ goes on. Then another branch leaves
@@ -169,13 +170,13 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
         passed.end = end_before(transitions, tools.system.watched_place(passed.at.state, bound));
         return passed;
       }
-      add_events(tools, corner, passed.at, *entered, begin, passed.events);
+      add_events(tools, corner, passed.at, *entered, begin, passed);
       if (pitchfork) add_pitchfork(passed.at, begin, std::move(*pitchfork), passed.events);
       passed.entered = EnteredActiveSet{.begin = std::move(begin)};
       if (holds_at(tools, entered->at)) passed.entered->first = std::move(entered->at);
       return passed;
     }
-    add_events(tools, corner, passed.at, *entered, entered->at, passed.events);
+    add_events(tools, corner, passed.at, *entered, entered->at, passed);
     passed.at = std::move(entered->at);
     only_remeshed = only_remeshed && entered->transition->change == Transition::Change::remeshed;
     // Bounds that are reached together are passed one after the other: the new mesh may have shifted those behind the

@@ -43,8 +43,13 @@ Event one_sided_branch_point(const TraceTools& tools, const Corner& corner, cons
           .branching = std::move(point)};
 }
 
+// Where one way leaves a corner λ turns if the number of unstable directions changes by an odd number, and only then.
+bool exclude_turn(const StabilityCount& before, const StabilityCount& behind) {
+  return before.unstable && behind.unstable && (*behind.unstable - *before.unstable) % 2 == 0;
+}
+
 std::vector<Event> events_at(const TraceTools& tools, const Corner& corner, const PathPoint& behind,
-                             const std::vector<OutgoingDirection>& untaken) {
+                             const std::vector<int>& signs, const std::vector<OutgoingDirection>& untaken) {
   std::vector<Event> events;
   Event event{.state = behind.state,
               .arc = behind.arc,
@@ -62,7 +67,7 @@ std::vector<Event> events_at(const TraceTools& tools, const Corner& corner, cons
     if (!event.guards.empty()) events.push_back(event);
   }
   if (corner.begins_branch) return events;
-  add_turns(tools, corner.signs, behind, event, events);
+  add_turns(tools, corner.signs, signs, event, events);
   if (!untaken.empty()) events.push_back(one_sided_branch_point(tools, corner, behind, untaken));
   return events;
 }
@@ -198,20 +203,29 @@ CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> 
     passed.end = {.reason = EndReason::singular, .detail = with_its_place(nothing_behind_change)};
     return passed;
   }
-  passed.events = events_at(tools, corner, *at, std::get<ChosenDirection>(choice.result).untaken);
+  const std::vector<OutgoingDirection>& untaken = std::get<ChosenDirection>(choice.result).untaken;
+  passed.signs = untaken.empty() ? signs_behind_corner(tools, corner, *at) : signs_at(tools.detectors, *at);
+  passed.events = events_at(tools, corner, *at, passed.signs, untaken);
   passed.at = std::move(*at);
   return passed;
 }
 
-void add_turns(const TraceTools& tools, const std::vector<int>& signs_before, const PathPoint& behind, Event event,
+std::vector<int> signs_behind_corner(const TraceTools& tools, const Corner& corner, const PathPoint& behind) {
+  std::vector<int> signs = signs_at(tools.detectors, behind);
+  if (corner.begins_branch || !exclude_turn(corner.before, behind.count)) return signs;
+  for (std::size_t i = 0; i < signs.size(); ++i)
+    if (tools.detectors[i].kind == EventKind::limit_point && signs[i] == -corner.signs[i]) signs[i] = corner.signs[i];
+  return signs;
+}
+
+void add_turns(const TraceTools& tools, const std::vector<int>& before, const std::vector<int>& behind, Event event,
                std::vector<Event>& events) {
-  const std::vector<int> now = signs_at(tools.detectors, behind);
   for (std::size_t i = 0; i < tools.detectors.size(); ++i) {
     const EventDetector& detector = tools.detectors[i];
-    if (detector.kind == EventKind::contact_sticks || !triggers(detector, signs_before[i], now[i])) continue;
+    if (detector.kind == EventKind::contact_sticks || !triggers(detector, before[i], behind[i])) continue;
     event.kind = detector.kind == EventKind::limit_point ? EventKind::contact_limit_point : detector.kind;
     event.label = detector.label;
-    event.extremum = extremum_at(detector.kind, signs_before[i]);
+    event.extremum = extremum_at(detector.kind, before[i]);
     events.push_back(event);
   }
 }

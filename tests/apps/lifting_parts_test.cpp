@@ -547,4 +547,46 @@ path = { step = 0.1, stop = { lambda = [-1.0, 1.8] } }
       EXPECT_GE(contact.force, 0.0) << point.lambda;
 }
 
+// A heavy strip lies on a floor, and its tip is pushed back and lifted, wherever the floor is turned to: the free
+// length d grows from zero, and λ never turns. In small slopes y″ = (w/P) (tan(k d/2) sin ks − 1 + cos ks) at s from
+// the edge, and
+//
+//     (w/P) k tan(k d/2) = w d − F,    k² = P/EI
+TEST(LiftingParts, AStripIsLiftedByItsTipHoweverItsFloorIsTurned) {
+  constexpr double w = 10.74, F = 2.636, P = 5.07, at = 0.3;
+  const auto deflection = [&](double lambda) {
+    const double k = std::sqrt(P * lambda), ratio = w / (P * lambda);
+    double d = 2.0 * F * lambda / w;
+    for (int i = 0; i < 100; ++i) d = (F * lambda + ratio * k * std::tan(0.5 * k * d)) / w;
+    const double A = ratio * std::tan(0.5 * k * d);
+    return A * (d / k - std::sin(k * d) / (k * k)) + ratio * ((1.0 - std::cos(k * d)) / (k * k) - 0.5 * d * d);
+  };
+  for (const double turn : {0.0, 0.4, 0.9, 2.3, 3.9, 5.5}) {
+    SCOPED_TRACE(turn);
+    const Vec2 along(std::cos(turn), std::sin(turn)), normal = perp(along);
+    const Vec2 load = -w * normal, force = F * normal - P * along;
+    const test::TracedDeck traced(fmt::format(
+        R"toml(
+title = "a heavy strip on a floor, lifted by its tip"
+material.m = {{ E = 1.0 }}
+section.s = {{ shape = "general", A = 3391.0, I = 1.0 }}
+point = {{ root = [0.0, 0.0], tip = [{:.17g}, {:.17g}] }}
+support = {{ root = ["x", "z", "rotation"] }}
+member.strip = {{ from = "root", to = "tip", theory = "euler-bernoulli", material = "m", section = "s", elements = 40 }}
+load = [{{ on = "strip", distributed = [{:.17g}, {:.17g}], constant = true }}, {{ at = "tip", force = [{:.17g}, {:.17g}] }}]
+wall = [{{ name = "floor", contact_surface = "axis", outline = {{ type = "half-plane", point = [0.0, 0.0], normal = [{:.17g}, {:.17g}] }} }}]
+monitor = [{{ name = "x", at = "tip", component = "x" }}, {{ name = "z", at = "tip", component = "z" }}]
+path = {{ step = 0.05, max_step = 0.2, branches = "primary", output_at = {{ lambda = [{}] }}, stop = {{ lambda = [-0.3, 1.0] }} }}
+)toml",
+        along.x(), along.y(), load.x(), load.y(), force.x(), force.y(), normal.x(), normal.y(), at));
+    const Record& record = traced.record();
+    ASSERT_EQ(kinds_of(record), "start contact-opens end ");
+    const auto point = std::find_if(record.points.begin(), record.points.end(),
+                                    [&](const RecordPoint& one) { return std::abs(one.lambda - at) < 1e-12; });
+    ASSERT_NE(point, record.points.end());
+    const double found = Vec2(point->monitors[0], point->monitors[1]).dot(normal);
+    EXPECT_NEAR(found, deflection(at), 3e-3 * deflection(at));
+  }
+}
+
 }  // namespace arcwall::lifting_parts_test
