@@ -1,9 +1,10 @@
 #include "continuation/lambda_scale.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/algebra/symmetric_eigen.hpp"
 
 namespace arcwall {
 
@@ -48,8 +49,7 @@ double distance_to_buckling(TraceTools& tools, const State& start, const Directi
   if (!(change.cwiseAbs().maxCoeff() > 4.0 * (ahead.roundoff + behind.roundoff))) return infinity;
   const Vector softness = nearest.values.cwiseSqrt().cwiseInverse();
   const Matrix relative = softness.asDiagonal() * change * softness.asDiagonal() / (2.0 * h);
-  return 1.0 /
-         Eigen::SelfAdjointEigenSolver<Matrix>(relative, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs().maxCoeff();
+  return 1.0 / symmetric_eigenvalues(relative).cwiseAbs().maxCoeff();
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "core/cubic_spline.hpp"
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -26,25 +25,28 @@ CubicSpline::CubicSpline(std::vector<double> t, std::vector<double> v, double ro
     std::fill(second_.begin(), second_.end(), 2.0 * (slope(1) - slope(0)) / (h(0) + h(1)));
     return;
   }
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  Vector right = Vector::Zero(n);
+  // (1) with m_0 and m_{n−1} of (2) has a dominant diagonal: elimination needs no pivots.
+  const double first = h(0) / h(1), last = h(n - 2) / h(n - 3);
+  std::vector<double> above(t_.size()), m(t_.size());
   for (Index i = 1; i + 1 < n; ++i) {
-    entries.emplace_back(i, i - 1, h(i - 1));
-    entries.emplace_back(i, i, 2.0 * (h(i - 1) + h(i)));
-    entries.emplace_back(i, i + 1, h(i));
-    right[i] = 6.0 * (slope(i) - slope(i - 1));
+    const auto row = static_cast<std::size_t>(i);
+    double below = h(i - 1), diagonal = 2.0 * (h(i - 1) + h(i)), beyond = h(i);
+    if (i == 1) {
+      diagonal += first * (h(0) + h(1));
+      beyond -= first * h(0);
+    }
+    if (i == n - 2) {
+      diagonal += last * (h(n - 3) + h(n - 2));
+      below -= last * h(n - 2);
+    }
+    const double pivot = diagonal - below * above[row - 1];
+    m[row] = (6.0 * (slope(i) - slope(i - 1)) - below * m[row - 1]) / pivot;
+    above[row] = beyond / pivot;
   }
-  const auto not_a_knot = [&](Index row, Index first) {
-    entries.emplace_back(row, first, h(first + 1));
-    entries.emplace_back(row, first + 1, -(h(first) + h(first + 1)));
-    entries.emplace_back(row, first + 2, h(first));
-  };
-  not_a_knot(0, 0);
-  not_a_knot(n - 1, n - 3);
-  SparseMatrix A(n, n);
-  A.setFromTriplets(entries.begin(), entries.end());
-  const Vector m = Eigen::SparseLU<SparseMatrix>(A).solve(right);
-  second_.assign(m.begin(), m.end());
+  for (std::size_t i = t_.size() - 3; i >= 1; --i) m[i] -= above[i] * m[i + 1];
+  m.front() = (1.0 + first) * m[1] - first * m[2];
+  m.back() = (1.0 + last) * m[t_.size() - 2] - last * m[t_.size() - 3];
+  second_ = std::move(m);
 }
 
 namespace {

@@ -1,9 +1,10 @@
 #include "continuation/events/interpolated_test_matrix.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "core/algebra/symmetric_eigen.hpp"
 
 namespace arcwall {
 
@@ -34,12 +35,12 @@ Matrix critical_modes(const SegmentSamples& on, const PathSample& sample) {
   if (!pairs || pairs->vectors->cols() == 0 || !pairs->vectors->allFinite()) return {};
   const auto inverse = flexibility(on, sample, *pairs->vectors);
   if (!inverse) return {};
-  const Eigen::SelfAdjointEigenSolver<Matrix> axes(*inverse);
-  const Vector size = axes.eigenvalues().cwiseAbs();
+  const SymmetricEigen axes = symmetric_eigenpairs(*inverse);
+  const Vector size = axes.values.cwiseAbs();
   std::vector<Index> critical;
   for (Index j = 0; j < size.size(); ++j)
     if (near * size[j] >= size.maxCoeff()) critical.push_back(j);
-  return *pairs->vectors * axes.eigenvectors()(Eigen::all, critical);
+  return *pairs->vectors * axes.vectors(Eigen::all, critical);
 }
 
 // The eigenvalue of this order, counted from the least of all, of which so many are negative; `near`: those nearest
@@ -96,7 +97,7 @@ Vector InterpolatedTestMatrix::eigenvalues(double t) const {
   const auto weight = weights(t);
   Matrix S = weight[0] * values_[0];
   for (std::size_t i = 1; i < nodes; ++i) S += weight[i] * values_[i];
-  return Eigen::SelfAdjointEigenSolver<Matrix>(S, Eigen::EigenvaluesOnly).eigenvalues();
+  return symmetric_eigenvalues(S);
 }
 
 double InterpolatedTestMatrix::rate(double t, Index j) const {

@@ -1,6 +1,5 @@
 #include "core/algebra/near_null.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "core/algebra/sliding_stability.hpp"
+#include "core/algebra/symmetric_eigen.hpp"
 
 namespace arcwall {
 
@@ -89,12 +89,12 @@ NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Ind
       XKX.col(j).noalias() = X.transpose() * K.product(X.col(j));
       XMX.col(j).noalias() = X.transpose() * weights.cwiseProduct(X.col(j));
     }
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ritz(XKX, XMX);
-    if (ritz.info() != Eigen::Success || !ritz.eigenvalues().allFinite()) break;
-    const std::vector<Index> order = by_magnitude(ritz.eigenvalues(), std::less<>{});
-    X *= ritz.eigenvectors()(Eigen::all, order);
+    const SymmetricEigen ritz = symmetric_eigenpairs(XKX, XMX);
+    if (!ritz.values.allFinite()) break;
+    const std::vector<Index> order = by_magnitude(ritz.values, std::less<>{});
+    X *= ritz.vectors(Eigen::all, order);
     const Vector previous = values;
-    values = ritz.eigenvalues()(order);
+    values = ritz.values(order);
     const double scale = values.head(count).cwiseAbs().maxCoeff();
     const double change = (values - previous).head(count).cwiseAbs().maxCoeff();
     if (convergence == Convergence::tight && change <= 1e-10 * scale) break;
@@ -169,15 +169,15 @@ NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const 
   if (block == 0 || !all_finite(solutions)) return {};
   for (auto column : X_.colwise()) column.array() *= weights.array();
   const Matrix A = X_.transpose() * solutions;
-  const Eigen::SelfAdjointEigenSolver<Matrix> ritz(0.5 * (A + A.transpose()));
-  std::vector<Index> order = by_magnitude(ritz.eigenvalues(), std::greater<>{});
+  const SymmetricEigen ritz = symmetric_eigenpairs(0.5 * (A + A.transpose()));
+  std::vector<Index> order = by_magnitude(ritz.values, std::greater<>{});
   order.resize(static_cast<std::size_t>(count));
-  Matrix pairs = solutions * ritz.eigenvectors()(Eigen::all, order);
+  Matrix pairs = solutions * ritz.vectors(Eigen::all, order);
   X_.resize(0, 0);
   Vector values(count);
   for (Index j = 0; j < count; ++j) {
     const double squared = (weights.array() * pairs.col(j).array().square()).sum();
-    values[j] = ritz.eigenvalues()[order[static_cast<std::size_t>(j)]] / squared;
+    values[j] = ritz.values[order[static_cast<std::size_t>(j)]] / squared;
     pairs.col(j) /= std::sqrt(squared);
   }
   pairs_ = std::move(pairs);

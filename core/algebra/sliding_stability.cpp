@@ -1,15 +1,15 @@
 #include "core/algebra/sliding_stability.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <utility>
+
+#include "core/algebra/symmetric_eigen.hpp"
 
 namespace arcwall {
 
 std::optional<Index> SlidingResistance::negative() const {
   if (!T.allFinite()) return std::nullopt;
   if (T.cols() == 0) return 0;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(T, Eigen::EigenvaluesOnly);
-  return (eigen.eigenvalues().array() < 0.0).count();
+  return (symmetric_eigenvalues(T).array() < 0.0).count();
 }
 
 namespace {

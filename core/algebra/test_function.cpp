@@ -1,6 +1,5 @@
 #include "core/algebra/test_function.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "core/algebra/solvers/lu.hpp"
+#include "core/algebra/symmetric_eigen.hpp"
 
 namespace arcwall {
 
@@ -147,9 +147,9 @@ std::optional<SignCount> signs_beside(const std::optional<Nearest>& nearest, con
       BorderedTestFunction::of(K, sparse_border(nearest->pairs.vectors->leftCols(nearest->near), weights));
   if (!function) return std::nullopt;
   const Matrix gram = function->vectors().transpose() * weights.asDiagonal() * function->vectors();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> axes(-function->psi(), gram);
-  if (axes.info() != Eigen::Success) return std::nullopt;
-  const Matrix principal = function->vectors() * axes.eigenvectors();
+  const SymmetricEigen axes = symmetric_eigenpairs(-function->psi(), gram);
+  if (!axes.values.allFinite()) return std::nullopt;
+  const Matrix principal = function->vectors() * axes.vectors;
   const double of_vectors = off * off * greatest_value(K, weights);
   for (Index j = 0; j < nearest->near; ++j) {
     const QuadraticForm form = quadratic_form(K, principal.col(j));

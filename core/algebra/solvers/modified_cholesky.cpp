@@ -2,7 +2,6 @@
 
 #include <dlfcn.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "core/algebra/near_null.hpp"
 #include "core/algebra/solvers/cholmod_factor.hpp"
+#include "core/algebra/symmetric_eigen.hpp"
 
 namespace arcwall {
 
@@ -233,9 +233,9 @@ class ModifiedCholesky final : public SymmetricFactors {
     springs_left_.compute(S);
     const Vector root = k.cwiseSqrt();
     const Matrix scaled = root.asDiagonal() * (0.5 * (S + S.transpose())) * root.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scaled, Eigen::EigenvaluesOnly);
-    bool usable = eigen.info() == Eigen::Success;
-    for (const double value : eigen.eigenvalues())
+    const Vector values = symmetric_eigenvalues(scaled);
+    bool usable = values.allFinite();
+    for (const double value : values)
       usable = pivots_.add(value * k.maxCoeff()) && std::abs(value) > rounding && usable;
     pivots_.signs.positive = llt_.size() - pivots_.signs.negative;
     return usable;
