@@ -46,6 +46,7 @@ void for_each_constraint(const SlidingSetting& setting, const SlidingState& at, 
     if (holds_direction(setting, on, k))
       visit([&] { return off_pinch(setting, at, k).turned; }, touch, at.index.moment(static_cast<Index>(k)));
   }
+  // Free to turn, a tip up to which a part is pressed would leave the nodes beside it with forces 13, −4, 1 % off.
   for (std::size_t i = 0; i < on.pressed_tips().size(); ++i)
     visit_tilt(touch_of_tip(setting, on.pressed_tips()[i]), at.index.tip_moment(i));
   for (std::size_t k = 0; k < on.points().size(); ++k)

@@ -35,7 +35,8 @@ int elements_asked(const SlidingBody& body, Index strand, double from, double to
 /// The fewest elements between two places of a strand that are not too long.
 int fewest_elements(const SlidingBody& body, Index strand, double from, double to);
 
-/// Length below which a part of the body between two contacts is none [length].
+/// Length below which a part of the body between two contacts is none [length]. Zones and spans begin with twice this,
+/// or more.
 double shortest_span(const SlidingBody& body, Index strand);
 
 /// The same of parts that are pressed on a straight obstacle and of arches between them and a point: their ends do not
