@@ -245,8 +245,15 @@ WallAction wall_action(const SlidingSetting& setting, const SlidingState& at, co
     const auto [member, fraction] = setting.body.label({.strand = touch.strand, .s = s});
     return of.includes(member, fraction);
   };
+  // No wall exerts the couple that keeps an open point where its gap is least, and is zero to round-off.
+  const auto is_of_open_point = [&](Index multiplier) {
+    const Index k = at.index.points > 0 ? multiplier - at.index.moment(0) : -1;
+    const auto point = static_cast<std::size_t>(k);
+    return k >= 0 && k < at.index.points && !at.is_closed(point) && !at.layout.is_pinched(point);
+  };
   for_each_constraint(setting, at, [&](const auto& function, const Touch& touch, Index multiplier) {
-    if (includes(touch)) add_to_action(function(), touch, multiplier, at, about, action);
+    if (!is_of_open_point(multiplier) && includes(touch))
+      add_to_action(function(), touch, multiplier, at, about, action);
   });
   return action;
 }

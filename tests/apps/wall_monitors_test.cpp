@@ -148,6 +148,28 @@ TEST(WallMonitor, MakesAnEdgeThatPassesAPlaceAnEvent) {
   expect_confirmed(run);
 }
 
+// Couples that keep the open point of a member where its gap is least are zero to round-off, and no wall exerts them.
+TEST(WallMonitor, HasNoTurningPointsOfRoundOffWithoutContact) {
+  const test::TracedDeck traced(R"toml(
+title = "A card flicks past a reed and leaves it"
+units = { length = "mm", force = "N" }
+material.s = { E = 2.0e5 }
+section.s = { shape = "rectangle", width = 5.0, height = 0.5 }
+point = { p = [0.0, 8.0], e = [30.0, 0.0] }
+support.p = ["x", "z", "rotation"]
+path = { step = 0.05, watch = ["push"], stop = { lambda = [-0.1, 22.0] } }
+member.s = { from = "p", to = "e", theory = "elastica", material = "s", section = "s", elements = 16 }
+wall = [{ name = "cam", contact_surface = "axis", outline = { type = "circle", centre = [36.0, -1.5], radius = 2.0 }, motion = { x = -1.0 } }]
+monitor = [{ name = "push", wall = "cam", component = "force-x", sign = -1 }]
+)toml");
+  const double left = test::event_of(traced, EventKind::contact_opens).lambda;
+  for (const RecordEvent& event : test::events_of(traced, EventKind::turning_point)) EXPECT_LE(event.lambda, left);
+  for (const RecordPoint& point : traced.record().points)
+    if (point.lambda > left + 1e-9) {
+      EXPECT_EQ(point.monitors.front(), 0.0);
+    }
+}
+
 TEST(WallMonitor, IsInfiniteWithoutContact) {
   const TracedDeck run(
       deck::replaced(two_cantilevers("moving", monitor("e", "wall = \"floor\"\nmember = \"long\"", "contact-end")),
