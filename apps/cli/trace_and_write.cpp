@@ -145,9 +145,7 @@ ExitStatus trace_and_write(Session& run, const OutputFolder& folder, const CallO
     std::cerr << "error: there is no equilibrium at the start: " << explanation(reason) << "\n";
     return ExitStatus::no_start;
   }
-  for (const std::string& warning :
-       {warning_of_units(run.model(), record), warning_of_found(record), warning_of_bent(run.model(), record)})
-    if (!warning.empty()) std::cerr << "warning: " << warning << "\n";
+  for (const std::string& warning : warnings_of_paths(run.model(), record)) std::cerr << "warning: " << warning << "\n";
   const ExitStatus status = std::cout ? exit_status(reason) : ExitStatus::file_error;
   write_files(folder, run, options, {.total = since_begin.seconds(), .tracing = since_start.seconds()}, status);
   if (!stopped && options.scratch) checkpoints.drop();

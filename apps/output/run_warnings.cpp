@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/output/exit_status.hpp"
+#include "apps/output/walls_between_nodes.hpp"
 #include "contact/sliding/layout.hpp"
 #include "model/shape.hpp"
 
@@ -151,11 +152,18 @@ std::string warning_of_bent(const Model& model, const Record& record) {
       bent.size() == 1 ? "" : "es", listed(bent), most_turn, greatest);
 }
 
+std::vector<std::string> warnings_of_paths(const Model& model, const Record& record) {
+  std::vector<std::string> all;
+  for (std::string warning : {warning_of_units(model, record), warning_of_found(record), warning_of_bent(model, record),
+                              warning_of_walls_between_nodes(model, record)})
+    if (!warning.empty()) all.push_back(std::move(warning));
+  return all;
+}
+
 std::vector<std::string> run_warnings(const Model& model, const Record& record) {
   std::vector<std::string> all = model.warnings();
-  for (std::string warning : {warning_of_start(model, record), warning_of_units(model, record),
-                              warning_of_found(record), warning_of_bent(model, record)})
-    if (!warning.empty()) all.push_back(std::move(warning));
+  if (std::string start = warning_of_start(model, record); !start.empty()) all.push_back(std::move(start));
+  for (std::string& warning : warnings_of_paths(model, record)) all.push_back(std::move(warning));
   return all;
 }
 

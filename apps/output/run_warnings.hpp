@@ -25,7 +25,10 @@ std::string warning_of_found(const Record& record);
 /// each branch are looked at.
 std::string warning_of_bent(const Model& model, const Record& record);
 
-/// The warnings of the deck, of the start, of the units, of what was found and of coarse elements.
+/// What traced paths tell: the warnings of the units, of what was found, of coarse elements and of walls between nodes.
+std::vector<std::string> warnings_of_paths(const Model& model, const Record& record);
+
+/// The warnings of the deck, of the start and of the paths.
 std::vector<std::string> run_warnings(const Model& model, const Record& record);
 
 }  // namespace arcwall

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/output/result_json.hpp"
+#include "apps/output/walls_between_nodes.hpp"
 #include "tests/apps/cli/program_fixture.hpp"
 #include "tests/apps/traced_deck.hpp"
 
@@ -129,6 +130,32 @@ TEST(WarningOfBent, NamesBranchesWhoseElementsTurnFar) {
   EXPECT_NE(warning_of_bent(coarse.model(), coarse.record()).find("branch 0 elements turn"), std::string::npos);
   const test::TracedDeck fine(deck, {"path.jumps=false"});
   EXPECT_EQ(warning_of_bent(fine.model(), fine.record()), "");
+}
+
+// A beam of weight 120 on three rollers, the middle one lower. With 20 elements the outer rollers lie between nodes,
+// and the beam falls past them; with 24 there is a node above each of them.
+TEST(RunWarnings, ARollerBetweenNodesIsTold) {
+  const auto deck = [](int elements) {
+    return R"(
+title = "Beam on three rollers"
+units = { length = "mm", force = "N" }
+material.steel = { E = 2.1e5, nu = 0.3 }
+section.b = { shape = "rectangle", width = 40.0, height = 20.0 }
+point = { a = [0.0, 0.0], b = [2400.0, 0.0] }
+path = { step = 10.0, stop = { lambda = [-10.0, 100.0] } }
+load = [{ on = "beam", distributed = [0.0, -0.05], constant = true }, { at = "beam:0.75", force = [0.0, -1.0] }]
+support.a = ["x"]
+member.beam = { from = "a", to = "b", theory = "reissner", material = "steel", section = "b", elements = )" +
+           std::to_string(elements) + R"( }
+wall = [{ name = "r1", outline = { type = "circle", centre = [200.0, -60.0], radius = 50.0 } },
+ { name = "r2", outline = { type = "circle", centre = [1200.0, -62.0], radius = 50.0 } },
+ { name = "r3", outline = { type = "circle", centre = [2200.0, -60.0], radius = 50.0 } }]
+)";
+  };
+  const test::TracedDeck coarse(deck(20)), fine(deck(24));
+  EXPECT_NE(warning_of_walls_between_nodes(coarse.model(), coarse.record()).find("beam is inside r1 by"),
+            std::string::npos);
+  EXPECT_EQ(warning_of_walls_between_nodes(fine.model(), fine.record()), "");
 }
 
 }  // namespace arcwall::run_warnings_test
