@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "continuation/corners/corner.hpp"
+#include "continuation/corners/force_exchange.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/step/point_on_path.hpp"
 #include "core/text.hpp"
@@ -70,6 +71,20 @@ std::vector<Event> events_at(const TraceTools& tools, const Corner& corner, cons
   add_turns(tools, corner.signs, signs, event, events);
   if (!untaken.empty()) events.push_back(one_sided_branch_point(tools, corner, behind, untaken));
   return events;
+}
+
+// The same corner behind an exchange of forces; empty where there is none.
+std::optional<std::pair<Corner, Index>> behind_exchange(TraceTools& tools, const Corner& corner, Index closing) {
+  const auto exchange = exchange_forces(tools, corner.at.state, closing, corner.lambda_scale);
+  if (!exchange) return std::nullopt;
+  Corner behind = corner;
+  behind.at.state = exchange->state;
+  behind.at.tangent.dx =
+      tools.system.transfer(corner.at.tangent.dx, corner.at.state.active_set, exchange->state.active_set);
+  behind.at.guards = tools.system.guards(exchange->state);
+  behind.at.guard_rates = Vector::Zero(behind.at.guards.size());
+  ++behind.without_progress;
+  return std::pair(std::move(behind), exchange->released);
 }
 
 // The corner as a point of the active set along a direction, with the count along it.
@@ -195,6 +210,18 @@ CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> 
     } else if (end) {
       passed.end = *end;
       passed.end->detail = with_its_place(end->detail);
+    }
+  }
+  if (passed.end && passed.end->reason == EndReason::no_continuation && landed) {
+    if (auto behind = behind_exchange(tools, corner, *landed)) {
+      passed = turn_corner(tools, std::move(behind->first), behind->second, visited);
+      if (!passed.events.empty()) {
+        Event closes = passed.events.front();
+        closes.kind = EventKind::contact_closes;
+        closes.guards = {*landed};
+        passed.events.insert(passed.events.begin(), std::move(closes));
+      }
+      return passed;
     }
   }
   passed.visit = std::move(choice.visit);

@@ -1,0 +1,45 @@
+#include "continuation/corners/force_exchange.hpp"
+
+#include <utility>
+
+#include "continuation/path_tolerances.hpp"
+
+namespace arcwall {
+
+std::optional<ForceExchange> exchange_forces(TraceTools& tools, const State& state, Index closing,
+                                             double lambda_scale) {
+  const System& system = tools.system;
+  const auto j = static_cast<std::size_t>(closing);
+  if (j >= state.active_set.contacts() || state.active_set[j]) return std::nullopt;
+  auto& [now, solver] = tools.corner_workspace;
+  system.linearize(state, now);
+  if (solver.factorize(now, system.multiplier_count(state.active_set)) != FactorStatus::ok) return std::nullopt;
+  Matrix rates = system.unit_force(state, closing);
+  if (!solver.solve_inner(rates)) return std::nullopt;
+
+  std::optional<Index> released;
+  double force = 0.0;  // of the new contact, in the scale of guards
+  for (Index i = 0; i < static_cast<Index>(state.active_set.contacts()); ++i) {
+    const auto k = system.multiplier_index(state.active_set, i);
+    if (!k || system.is_two_sided(state.active_set, i) || rates(*k, 0) >= 0.0) continue;
+    const double vanishes_at = state.x[*k] / -rates(*k, 0);
+    if (released && vanishes_at >= force) continue;
+    released = i;
+    force = vanishes_at;
+  }
+  if (!released) return std::nullopt;
+  const Metric metric = tools.metric_on(state.active_set, lambda_scale);
+  if (metric.norm({.dx = force * rates.col(0), .dlambda = 0.0}) > coincidence_tolerance) return std::nullopt;
+
+  State changed = state;
+  changed.x += force * rates.col(0);
+  ActiveSet with_new = state.active_set;
+  with_new[j] = 1;
+  ForceExchange exchange{.state = system.with_active_set(changed, with_new), .released = *released};
+  if (const auto k = system.multiplier_index(with_new, closing))
+    exchange.state.x[*k] = force * system.multiplier_scale();
+  if (const auto k = system.multiplier_index(with_new, *released)) exchange.state.x[*k] = 0.0;
+  return exchange;
+}
+
+}  // namespace arcwall
