@@ -17,6 +17,8 @@ struct ContactLabel {
   std::string member{};
   double fraction = 0.0;   ///< of the member's arc length
   double tributary = 0.0;  ///< part of the axis whose pressure the contact stands for; 0 if not given [length]
+
+  bool operator==(const ContactLabel&) const = default;
 };
 
 /// As messages say it: "roof at column:0.25", to four digits of the member; the member alone where there is no wall.

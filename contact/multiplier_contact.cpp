@@ -60,6 +60,43 @@ MultiplierContact::MultiplierContact(const Equations& inner, std::vector<Candida
     rest_friction_ = std::make_shared<const FrictionLayout>(std::vector<FrictionLayout::Contact>(candidates_.size()));
 }
 
+// What a grip leaves of the candidates has their order. A wall that can no longer be moved against bears nothing: the
+// grip does.
+State MultiplierContact::gripped(const MultiplierContact& free, const State& state, const Vector& inner) const {
+  std::vector<std::size_t> number;  // of each candidate, there
+  for (std::size_t before = 0; const Candidate& here : candidates_) {
+    while (!(free.candidates_[before].label() == here.label())) ++before;
+    number.push_back(before++);
+  }
+  std::vector<FrictionLayout::Contact> histories;
+  for (std::size_t j = 0; j < number.size() && has_friction(); ++j)
+    histories.push_back(free.history(state.active_set)[number[j]]);
+  ActiveSet active_set(number.size(), 0,
+                       has_friction() ? std::make_shared<const FrictionLayout>(std::move(histories)) : nullptr);
+  const auto can_move = [&](const Candidate& candidate) {
+    constexpr double least = 1e-9;  // of the motion
+    Gap gap;
+    candidate.gap({.x = inner, .lambda = 0.0}, gap);
+    return gap.gradient.norm() > least;
+  };
+  for (std::size_t j = 0; j < number.size(); ++j)
+    active_set[j] = static_cast<std::uint8_t>(state.active_set[number[j]] != 0 && can_move(candidates_[j]));
+  State result{.x = {}, .lambda = state.lambda, .active_set = active_set.with_kinks_of(state.active_set)};
+  result.x = Vector::Zero(size(result.active_set));
+  result.x.head(inner.size()) = inner;
+  for_each_force(result.active_set, [&](std::size_t j, Index k) {
+    result.x[inner.size() + k] = state.x[*free.multiplier_index(state.active_set, static_cast<Index>(number[j]))];
+  });
+  const std::vector<Friction> rubbed = free.frictions(state.active_set);
+  for (const Friction& friction : frictions(result.active_set))
+    for (const Friction& before : rubbed) {
+      if (before.contact != number[friction.contact]) continue;
+      result.x[friction.T] = state.x[before.T];
+      if (friction.w) result.x[*friction.w] = state.x[*before.w];
+    }
+  return result;
+}
+
 // Whether candidate j is closed and its force an unknown: of two that are opposite the first has that of both.
 bool MultiplierContact::has_force(const ActiveSet& active_set, std::size_t j) const {
   const std::optional<Index> opposite = candidates_[j].opposite();

@@ -98,6 +98,10 @@ class MultiplierContact final : public System, public ContactQuery {
   /// The index in x of the friction force of a closed contact with friction; empty of others.
   std::optional<Index> friction_index(const ActiveSet& active_set, Index j) const;
 
+  /// Returns the state of a structure that is held where that of `free` is free, from one there: among the candidates
+  /// of `free` those whose points can still move, with their forces and histories. `inner`: its inner unknowns.
+  State gripped(const MultiplierContact& free, const State& state, const Vector& inner) const;
+
   /// How far a closed contact with friction has slipped along the obstacle since it closed [length].
   double slip(const State& state, Index j) const;
   Row slip_gradient(const State& state, Index j) const;

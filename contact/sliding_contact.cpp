@@ -383,6 +383,36 @@ State SlidingContact::adopted(const State& state) const {
   return {.x = state.x, .lambda = state.lambda, .active_set = sliding::with_layout(state.active_set, here)};
 }
 
+State SlidingContact::gripped(const SlidingContact& free, const State& state) const {
+  const SlidingState at(state);
+  const auto here = std::make_shared<SlidingContactLayout>(body(), body().mesh(at.mesh.elements_per_segment()),
+                                                           at.layout.points(), at.now.s, at.layout.lying());
+  std::vector<std::size_t> number;  // of each contact, there
+  for (std::size_t k = 0; k < at.layout.points().size(); ++k) number.push_back(k);
+  for (const FreeEnd& end : setting_->free_ends) {
+    const auto before = free.setting_->number_of_end({.strand = end.strand, .last = end.last}, end.obstacle);
+    number.push_back(at.layout.points().size() + before.value());
+  }
+  ActiveSet active_set(number.size(), 0, here);
+  for (std::size_t j = 0; j < number.size(); ++j) active_set[j] = state.active_set[number[j]];
+  State result{.x = {}, .lambda = state.lambda, .active_set = active_set.with_kinks_of(state.active_set)};
+  const SlidingUnknowns index(result.active_set);
+  const Index middle = index.pressed + index.neutral + index.pinched;
+  result.x = Vector::Zero(index.size());
+  result.x.head(index.nodes) = at.mesh.transferred(at.now, here->mesh(), at.now.s);
+  for (std::size_t j = 0; j < number.size(); ++j)
+    if (const auto force = index.force(j)) result.x[*force] = at.force(number[j]);
+  result.x.segment(index.pressed_force(0), middle) = state.x.segment(at.index.pressed_force(0), middle);
+  const auto& tips = here->pressed_tips();
+  const auto& before = at.layout.pressed_tips();
+  for (std::size_t tip = 0; tip < tips.size(); ++tip)
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (before[i].strand == tips[tip].strand && before[i].position == tips[tip].position)
+        result.x[index.tip_moment(tip)] = state.x[at.index.tip_moment(i)];
+  result.x.tail(2 * index.points) = state.x.tail(2 * index.points);  // m and s of the tracked points
+  return result;
+}
+
 State SlidingContact::with_flat_parts_loaded(const State& state, double toward) const {
   return sliding::with_flat_parts_loaded(*setting_, SlidingState(state), toward);
 }

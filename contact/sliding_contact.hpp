@@ -91,6 +91,10 @@ class SlidingContact final : public System, public ContactQuery {
   /// The same state of this body, of one on another body that differs from it in its loads alone.
   State adopted(const State& state) const;
 
+  /// Returns the state of this body, which is held where that of `free` is free, from one there: what walls exert on
+  /// the ends that are held now, and the moments at tips that are, is left to the supports.
+  State gripped(const SlidingContact& free, const State& state) const;
+
   /// The state from which λ goes towards a value: parts that lie on walls without pressure, and along which a load
   /// begins to act then, are pressed or free.
   State with_flat_parts_loaded(const State& state, double toward) const;

@@ -146,6 +146,9 @@ class Structure final : public System {
   /// Returns the unknown of a degree of freedom; empty if it is prescribed.
   std::optional<Index> unknown(Index dof) const;
 
+  /// Returns true if the degree of freedom is prescribed, or will be in a later stage.
+  bool is_ever_held(Index dof) const { return !unknown(dof) || held_later_.contains(dof); }
+
   /// Returns the displacement [length] or rotation [rad], free or prescribed.
   double value(const State& state, Index dof) const;
 
@@ -161,6 +164,7 @@ class Structure final : public System {
     Dof dof;
   };
   Meaning meaning(Index unknown) const;
+  Index dof_of_unknown(Index unknown) const { return dof_of_unknown_[static_cast<std::size_t>(unknown)]; }
   Meaning meaning_of_dof(Index dof) const { return meaning_of_dof_[static_cast<std::size_t>(dof)]; }
 
   /// Returns the support reaction on the structure in a degree of freedom [force or force·length]; 0 if it is free.
@@ -248,6 +252,7 @@ class Structure final : public System {
   double rotations_ = 1.0;  // how many there are
   double length_scale_ = 1.0, force_scale_ = 0.0, heat_rate_ = 0.0;
   std::vector<std::int32_t> turning_set_;  // of each degree of freedom
+  std::set<Index> held_later_;             // see StructureBuilder::expect_hold()
 };
 
 /// Collects the description of a structure; build() creates it.
@@ -291,6 +296,9 @@ class StructureBuilder {
 
   /// Says that a load may act on a degree of freedom, as it does in another stage: a member has a node for it.
   void expect_load(Index dof) { expected_loads_.insert(dof); }
+
+  /// Says that a degree of freedom, free now, will be prescribed in a later stage: members are cut there alike.
+  void expect_hold(Index dof) { expected_holds_.insert(dof); }
 
   /// Adds a dead load along a member.
   void add_distributed_load(Index member, const LineLoad& load, LoadKind kind);
@@ -380,7 +388,8 @@ class StructureBuilder {
   std::vector<MemberMesh> meshes_;
   std::vector<Index> first_element_;  // of each member
   NodalTerms nodal_;
-  std::set<Index> expected_loads_;  // degrees of freedom
+  std::set<Index> expected_loads_, expected_holds_;  // degrees of freedom
+  bool is_ever_held(Index dof) const { return nodal_.is_held(dof) || expected_holds_.contains(dof); }
   std::vector<DistributedLoad> distributed_loads_;
   std::vector<FoundationLaw> foundations_;  // of each member
   std::vector<ThermalStrain> thermal_;      // likewise

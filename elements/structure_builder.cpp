@@ -241,7 +241,7 @@ std::vector<bool> StructureBuilder::nodes_with_terms() const {
   std::vector<bool> found(positions_.size(), false);
   for (std::size_t i = 0; i < dofs_.size(); ++i) {
     const auto dof = static_cast<Index>(i);
-    if (!nodal_.load(dof).is_zero() || expected_loads_.contains(dof) || nodal_.is_held(dof) ||
+    if (!nodal_.load(dof).is_zero() || expected_loads_.contains(dof) || is_ever_held(dof) ||
         nodal_.ground_stiffness(dof) != 0.0)
       found[static_cast<std::size_t>(dofs_[i].node)] = true;
   }
@@ -261,7 +261,7 @@ bool StructureBuilder::carries_force_alone(Index node, Index rotation) const {
     const auto& others = nodal_.law_springs();
     const auto has = [&](const NodalTerms::LawSpring& spring) { return spring.joins(dof); };
     if (std::any_of(others.begin(), others.end(), has)) return false;
-    return !nodal_.is_held(dof) && nodal_.ground_stiffness(dof) == 0.0 &&
+    return !is_ever_held(dof) && nodal_.ground_stiffness(dof) == 0.0 &&
            std::none_of(springs.begin(), springs.end(), joins);
   };
   return is_free(dof(node, Dof::x)) && is_free(dof(node, Dof::z)) && is_free(rotation) &&
@@ -327,6 +327,7 @@ std::unique_ptr<Structure> StructureBuilder::numbered() const {
   structure->meaning_of_dof_ = dofs_;
   structure->element_dofs_ = std::move(dofs_of_elements);
   structure->turning_set_ = turning_sets();
+  structure->held_later_ = expected_holds_;
   structure->length_scale_ = box_diagonal(positions_);
   const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.dof == Dof::rotation; };
   structure->rotations_ = static_cast<double>(std::count_if(dofs_.begin(), dofs_.end(), is_rotation));

@@ -189,7 +189,7 @@ std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Pla
   if (const auto dof = reaction_dof(component)) {
     if (*dof != Dof::rotation) return reaction_of(from, structure.dof(node.node, *dof));
     for (const End& end : at)
-      if (const auto rotation = end.mesh->rotations[end.position]; rotation && !structure.unknown(*rotation))
+      if (const auto rotation = end.mesh->rotations[end.position]; rotation && structure.is_ever_held(*rotation))
         return reaction_of(from, *rotation);
     return nullptr;
   }
@@ -568,7 +568,7 @@ Watch::Kind kind_of(const MonitorColumn& column, const deck::Deck& deck) {
 
 std::shared_ptr<const Observable> reaction_of(const Measured& from, Index dof) {
   auto reaction = from.body.reaction(dof);
-  if (from.kinked == nullptr) return reaction;
+  if (from.kinked == nullptr || from.structure.unknown(dof)) return reaction;
   std::vector<KinkedForce::Part> parts;
   const auto& springs = from.structure.nodal_terms().law_springs();
   for (std::size_t i = 0; i < springs.size(); ++i)

@@ -364,6 +364,7 @@ void move_supports(const deck::Deck& deck, const Joined& joined, DeckProblems& p
     if (!joined(one.point, one.position, "prescribed.at")) continue;
     const NodeDofs dofs = dofs_of_joint(out, one.point);
     const auto move = [&](Index dof, double value) {
+      if (!one.holds) return out.builder.expect_hold(dof);
       moved[dof] += one.constant ? Driven{.constant = value} : Driven{.proportional = value};
     };
     if (one.x) move(dofs.x, *one.x);

@@ -46,6 +46,13 @@ std::vector<Theory> theories_of(const deck::Deck& deck) {
   return theories;
 }
 
+// Whether a grip holds a point in a stage: what acts on that point changes what the grip bears, if nothing else.
+bool has_grip(const deck::Deck& deck, std::size_t stage) {
+  for (std::size_t i = 0; i < deck.prescribed.size(); ++i)
+    if (const auto grips = gripping_stage(deck, i); grips && *grips <= stage) return true;
+  return false;
+}
+
 // What is looked for beside the path is looked for on the deck's mesh.
 void check_search(const Model& model, DeckProblems& problems) {
   if (model.deck().path.search && !DeckMesh(model).is_complete())
@@ -63,14 +70,24 @@ Model::Model(deck::Deck deck, const std::optional<deck::Frame>& frame)
       if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
 }
 
-bool Model::begin_stage(double lambda) {
+StageEnd Model::end_in(const State& last) const {
+  StageEnd end{.lambda = last.lambda};
+  for (const GrippedPoint& point : gripped_next_)
+    end.grips.push_back({.x = frame().factor() * point.x->value(last),
+                         .z = frame().factor() * point.z->value(last),
+                         .rotation = point.rotation ? point.rotation->value(last) : 0.0});
+  return end;
+}
+
+bool Model::begin_stage(StageEnd end) {
   const std::size_t ended = ended_stages_.size();
   if (ended + 1 >= whole_deck_->stages.size()) return false;
+  if (end.grips.size() != grips_of(*whole_deck_, ended + 1).size()) return false;
   const Model& last = at_stage(static_cast<Index>(ended));
-  auto progress = progress_after(whole_deck_->stages[ended], lambda, last.progress_);
+  auto progress = progress_after(*whole_deck_, ended, end, last.progress_);
   later_.push_back(
       std::unique_ptr<Model>(new Model(whole_deck_, frame(), static_cast<Index>(ended) + 1, std::move(progress))));
-  ended_stages_.push_back(lambda);
+  ended_stages_.push_back(std::move(end));
   return true;
 }
 
@@ -96,7 +113,8 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
   hold_between_walls(*deck_, described.builder);
 
   structure_ = described.builder.build();
-  if (!moves_something(*structure_) && (structure_->size({}) == 0 || !moves_walls(*deck_)))
+  const bool changes_a_grip = structure_->size({}) > 0 && has_grip(*whole_deck_, static_cast<std::size_t>(stage_));
+  if (!moves_something(*structure_) && !changes_a_grip && (structure_->size({}) == 0 || !moves_walls(*deck_)))
     report_nothing_moves(*whole_deck_, static_cast<std::size_t>(stage_), structure_->size({}) == 0, problems);
   if (takes_increments(*deck_, *structure_, problems))
     incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
@@ -128,6 +146,15 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
   monitors_ = monitor_columns(*deck_, read_off, problems);
   structure_->nodal_terms().for_each_moved_support(
       [&](Index dof, double rate) { moved_.push_back({.rate = rate, .reaction = reaction_of(read_off, dof)}); });
+  for (const std::size_t next : grips_of(*whole_deck_, static_cast<std::size_t>(stage_) + 1)) {
+    const std::string& point = whole_deck_->prescribed[next].point;
+    const Index node = described.places.joints.at(point);
+    const auto rotation = described.places.rotations.find(point);
+    gripped_next_.push_back(
+        {.x = body_->motion(structure_->dof(node, Dof::x)),
+         .z = body_->motion(structure_->dof(node, Dof::z)),
+         .rotation = rotation == described.places.rotations.end() ? nullptr : body_->motion(rotation->second)});
+  }
   options_ = trace_options(*deck_, read_off, monitors_, problems);
   options_.node_contacts = std::move(node_contacts);
   check_watched(*deck_, problems);
@@ -440,10 +467,19 @@ State Model::begun_from(const State& state) const {
   return begun;
 }
 
-State Model::taken_over(const State& last) const {
-  State state = last;
+State Model::taken_over(const State& last, const Model& before) const {
+  State state = grips_of(*whole_deck_, static_cast<std::size_t>(stage_)).empty() ? last : gripped(last, before);
   state.lambda = 0.0;
   return begun_from(state);
+}
+
+// The unknowns of the stage before, but for those that this stage holds where they are.
+State Model::gripped(const State& state, const Model& before) const {
+  if (sliding_) return sliding_->gripped(*before.sliding_, state);
+  Vector x(structure_->size({}));
+  for (Index i = 0; i < x.size(); ++i) x[i] = before.structure_->value(state, structure_->dof_of_unknown(i));
+  if (contact_) return contact_->gripped(*before.contact_, state, x);
+  return {.x = std::move(x), .lambda = state.lambda, .active_set = state.active_set};
 }
 
 // With λ as one more unknown the second variation has the same unstable directions, and one more if the force that goes

@@ -57,11 +57,15 @@ class Model {
   /// Returns the given deck with all stages, in the user's coordinates.
   const deck::Deck& whole_deck() const { return *whole_deck_; }
 
-  /// Ends the last stage at λ and builds the model of the next one. Returns false if there is none.
-  bool begin_stage(double lambda);
+  /// Returns how this model's stage ends in a state.
+  StageEnd end_in(const State& last) const;
 
-  /// Returns λ at the end of each finished stage.
-  const std::vector<double>& ended_stages() const { return ended_stages_; }
+  /// Ends the last stage and builds the model of the next one. Returns false if there is none, or if it takes hold of
+  /// other points.
+  bool begin_stage(StageEnd end);
+
+  /// Returns how each finished stage has ended.
+  const std::vector<StageEnd>& ended_stages() const { return ended_stages_; }
 
   /// Returns the model of a stage, counted from 0.
   Model& at_stage(Index stage) { return stage == 0 ? *this : *later_[static_cast<std::size_t>(stage) - 1]; }
@@ -120,8 +124,8 @@ class Model {
   /// Empty if there is none; `reason` then receives the cause.
   std::optional<State> start(std::string& reason) const;
 
-  /// Returns the end state of the previous stage as the start of this one.
-  State taken_over(const State& last) const;
+  /// Returns the end state of the previous stage, `before`, as the start of this one.
+  State taken_over(const State& last, const Model& before) const;
 
   /// Returns true if supports leave the structure rigid-body motions, which contact alone restrains.
   bool is_loose() const { return !loose_holds_.empty(); }
@@ -134,6 +138,7 @@ class Model {
 
  private:
   State begun_from(const State& state) const;
+  State gripped(const State& state, const Model& before) const;
   void make_kinks();
   // `progress`: of what λ drives, before the stage; empty where nothing has gone before it.
   Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, Index stage,
@@ -152,7 +157,7 @@ class Model {
   Index stage_ = 0;
   std::vector<DrivenThing> progress_;  // before this stage
   std::vector<std::unique_ptr<Model>> later_;
-  std::vector<double> ended_stages_;
+  std::vector<StageEnd> ended_stages_;
   std::shared_ptr<const deck::Deck> deck_;  // of the stage
   LooseHolds loose_holds_;
   LooseHolds ramp_holds_;                   // of a mechanism, until what is constant stiffens it
@@ -171,6 +176,10 @@ class Model {
     std::shared_ptr<const Observable> reaction;  // of the support
   };
   std::vector<MovedDof> moved_;
+  struct GrippedPoint {
+    std::shared_ptr<const Observable> x, z, rotation;  // the last is null where the point has none
+  };
+  std::vector<GrippedPoint> gripped_next_;  // of grips_of() the next stage
   TraceOptions options_;
   std::vector<Watch> watched_;
   ExploreOptions explore_;

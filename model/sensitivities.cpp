@@ -93,11 +93,11 @@ struct Sensitivities::Beside {
   std::string problem{};
 
   void build(const deck::Deck& deck, const deck::Frame& frame, const deck::DeckNumber& number, double h,
-             const std::vector<double>& ended_stages);
+             const std::vector<StageEnd>& ended_stages);
 };
 
 void Sensitivities::Beside::build(const deck::Deck& deck, const deck::Frame& frame, const deck::DeckNumber& number,
-                                  double h, const std::vector<double>& ended_stages) {
+                                  double h, const std::vector<StageEnd>& ended_stages) {
   models.clear();
   problem.clear();
   for (const DifferencePlace& place : central_difference) {
@@ -109,12 +109,18 @@ void Sensitivities::Beside::build(const deck::Deck& deck, const deck::Frame& fra
       return;
     }
     for (std::size_t stage = 0; stage < ended_stages.size(); ++stage) {
-      const auto end = end_of_stage(deck, model->whole_deck(), stage, ended_stages[stage]);
+      const auto end = end_of_stage(deck, model->whole_deck(), stage, ended_stages[stage].lambda);
       if (!end) {
         problem = "an earlier load step did not end at a bound of lambda, and the change of its end is not followed";
         return;
       }
-      model->begin_stage(*end);
+      if (!ended_stages[stage].grips.empty()) {
+        problem =
+            "a load step grips a point where an earlier one has left it, and the change of that place is not "
+            "followed";
+        return;
+      }
+      model->begin_stage({.lambda = *end});
     }
     models.push_back({.model = std::move(model),
                       .offset = place.offset * h,
@@ -138,7 +144,7 @@ void check_sensitivity(const deck::Deck& deck, DeckProblems& problems) {
   }
 }
 
-Sensitivities::Sensitivities(const Model& model, std::vector<double> ended_stages)
+Sensitivities::Sensitivities(const Model& model, std::vector<StageEnd> ended_stages)
     : model_(model), ended_stages_(std::move(ended_stages)) {
   for (const std::string& key : model.whole_deck().path.sensitivity)
     numbers_.push_back(std::get<deck::DeckNumber>(deck::number_of(model.whole_deck(), key)));

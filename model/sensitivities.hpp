@@ -29,8 +29,8 @@ double natural_step(const deck::DeckNumber& number, const Model& model);
 /// are needed first.
 class Sensitivities {
  public:
-  /// Of events of a model, which must outlive this; `ended_stages`: the λ at which the stages before it have ended.
-  Sensitivities(const Model& model, std::vector<double> ended_stages);
+  /// Of events of a model, which must outlive this; `ended_stages`: how the stages before it have ended.
+  Sensitivities(const Model& model, std::vector<StageEnd> ended_stages);
   ~Sensitivities();
 
   /// By each number, of an event at the end of an arc; none of the ends of branches and of events of a program.
@@ -46,7 +46,7 @@ class Sensitivities {
                                 const Event& event);
 
   const Model& model_;
-  std::vector<double> ended_stages_;
+  std::vector<StageEnd> ended_stages_;
   std::vector<deck::DeckNumber> numbers_;
   std::vector<std::vector<std::unique_ptr<Beside>>> beside_;  // of each number, for each of the steps
 };

@@ -79,11 +79,19 @@ bool is_whole(const Record& record, std::size_t ended_stages) {
                      [&](const RecordSearch& search) { return is_whole(record, search); });
 }
 
+bool is_finite(const StageEnd& end) {
+  return std::isfinite(end.lambda) && std::all_of(end.grips.begin(), end.grips.end(), [](const GripPlace& place) {
+           return std::isfinite(place.x) && std::isfinite(place.z) && std::isfinite(place.rotation);
+         });
+}
+
 ArchiveModel model_of(const Model& model) {
   ArchiveModel result{.system = &model.system()};
-  for (std::size_t stage = 0; stage <= model.ended_stages().size(); ++stage)
-    if (const SlidingContact* sliding = model.at_stage(static_cast<Index>(stage)).sliding())
-      result.sliding.push_back(sliding);
+  for (std::size_t stage = 0; stage <= model.ended_stages().size(); ++stage) {
+    const Model& here = model.at_stage(static_cast<Index>(stage));
+    if (stage > 0) result.later.push_back(&here.system());
+    if (const SlidingContact* sliding = here.sliding()) result.sliding.push_back(sliding);
+  }
   return result;
 }
 
@@ -144,7 +152,7 @@ Json SessionContent::of(Session& session, const std::optional<BranchEnd>& stoppe
   ArchiveWriter archive(model_of(*session.model_));
   std::string program = program_version();
   std::optional<BranchEnd> ending = stopped;
-  std::vector<double> ended_stages = session.model_->ended_stages();
+  std::vector<StageEnd> ended_stages = session.model_->ended_stages();
   archive(program, session.description_, ending, session.start_, ended_stages);
   keep_traced(archive, *session.record_);
   session.tracing_->serialize(archive);
@@ -175,11 +183,10 @@ Session SessionContent::read(const Json& content, const std::string& file, Sessi
     ArchiveReader archive(content, model_of(*session.model_));
     std::string program;
     std::optional<BranchEnd> stopped;
-    std::vector<double> ended_stages;
+    std::vector<StageEnd> ended_stages;
     archive(program, session.description_, stopped, session.start_, ended_stages);
-    for (const double lambda : ended_stages)
-      archive.require(std::isfinite(lambda) && session.model_->begin_stage(lambda));
-    archive.set_sliding(model_of(*session.model_).sliding);
+    for (const StageEnd& end : ended_stages) archive.require(is_finite(end) && session.model_->begin_stage(end));
+    archive.set_stages(model_of(*session.model_));
     archive.require(session.start_.x.size() > 0);
     session.tracing_ = make_tracing(*session.model_, *session.record_, session.start_, session.description_.ledger);
     keep_traced(archive, *session.record_);

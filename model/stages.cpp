@@ -41,29 +41,63 @@ deck::Prescribed held(deck::Prescribed moved, double gone) {
   return moved;
 }
 
+// A movement at rest where its stage has taken hold of the point.
+deck::Prescribed held_at(deck::Prescribed moved, const GripPlace& place) {
+  if (moved.x) moved.x = place.x;
+  if (moved.z) moved.z = place.z;
+  if (moved.rotation) moved.rotation = place.rotation;
+  moved.constant = true;
+  return moved;
+}
+
 const DrivenThing& progress_of(const std::vector<DrivenThing>& progress, const std::string& name) {
   return *std::find_if(progress.begin(), progress.end(), [&](const DrivenThing& one) { return one.name == name; });
 }
 
-// What has gone so far is held, and what the stage drives goes on from there. Movements that are not driven stay in the
-// list, so that they hold their directions.
-template <class Thing>
-std::vector<Thing> in_stage(const std::vector<Thing>& things, const std::string& kind, const deck::Stage& stage,
-                            const std::vector<DrivenThing>& progress) {
-  std::vector<Thing> result;
-  for (std::size_t i = 0; i < things.size(); ++i) {
-    if (things[i].constant) {
-      result.push_back(things[i]);
+// What has gone so far is held, and what the stage drives goes on from there.
+std::vector<deck::Load> loads_in_stage(const deck::Deck& deck, const deck::Stage& stage,
+                                       const std::vector<DrivenThing>& progress) {
+  std::vector<deck::Load> result;
+  for (std::size_t i = 0; i < deck.loads.size(); ++i) {
+    const deck::Load& load = deck.loads[i];
+    const std::string name = deck::driven_thing("load", i);
+    result.push_back(load.constant ? load : held(load, progress_of(progress, name).gone));
+    if (!load.constant && drives(stage, name)) result.push_back(load);
+  }
+  return result;
+}
+
+// Likewise. Movements that are not driven stay in the list, so that they hold their directions; but one that takes hold
+// of its point in a later stage leaves it free. From then on it counts from where the point was.
+std::vector<deck::Prescribed> movements_in_stage(const deck::Deck& deck, std::size_t stage,
+                                                 const std::vector<DrivenThing>& progress) {
+  std::vector<deck::Prescribed> result;
+  for (std::size_t i = 0; i < deck.prescribed.size(); ++i) {
+    const deck::Prescribed& moved = deck.prescribed[i];
+    if (moved.constant) {
+      result.push_back(moved);
       continue;
     }
-    const std::string name = deck::driven_thing(kind, i);
-    result.push_back(held(things[i], progress_of(progress, name).gone));
-    if (drives(stage, name)) result.push_back(things[i]);
+    const std::string name = deck::driven_thing("prescribed", i);
+    const DrivenThing& so_far = progress_of(progress, name);
+    const auto grips = gripping_stage(deck, i);
+    result.push_back(held(moved, so_far.gone));
+    result.back().holds = !grips || *grips <= stage;
+    if (!result.back().holds) continue;
+    if (grips) result.push_back(held_at(moved, so_far.grip));
+    if (drives(deck.stages[stage], name)) result.push_back(moved);
   }
   return result;
 }
 
 }  // namespace
+
+std::vector<std::size_t> grips_of(const deck::Deck& deck, std::size_t stage) {
+  std::vector<std::size_t> grips;
+  for (std::size_t i = 0; i < deck.prescribed.size(); ++i)
+    if (gripping_stage(deck, i) == std::optional(stage)) grips.push_back(i);
+  return grips;
+}
 
 std::vector<DrivenThing> things_to_drive(const deck::Deck& deck) {
   std::vector<DrivenThing> progress;
@@ -77,8 +111,8 @@ std::shared_ptr<const deck::Deck> deck_of_stage(const std::shared_ptr<const deck
   if (deck.stages.empty()) return whole;
   const deck::Stage& now = deck.stages[stage];
   deck::Deck result = deck;
-  result.loads = in_stage(deck.loads, "load", now, progress);
-  result.prescribed = in_stage(deck.prescribed, "prescribed", now, progress);
+  result.loads = loads_in_stage(deck, now, progress);
+  result.prescribed = movements_in_stage(deck, stage, progress);
   for (deck::Wall& wall : result.walls)
     if (wall.motion)
       wall.motion->progress = {.constant = progress_of(progress, "wall." + wall.name).gone,
@@ -104,9 +138,14 @@ bool is_driven_apart(const deck::Deck& deck, const std::string& member) {
   });
 }
 
-std::vector<DrivenThing> progress_after(const deck::Stage& stage, double lambda, std::vector<DrivenThing> progress) {
+std::vector<DrivenThing> progress_after(const deck::Deck& deck, std::size_t stage, const StageEnd& end,
+                                        std::vector<DrivenThing> progress) {
   for (DrivenThing& one : progress)
-    if (drives(stage, one.name)) one.gone += lambda;
+    if (drives(deck.stages[stage], one.name)) one.gone += end.lambda;
+  const std::vector<std::size_t> grips = grips_of(deck, stage + 1);
+  for (std::size_t i = 0; i < grips.size(); ++i)
+    for (DrivenThing& one : progress)
+      if (one.name == deck::driven_thing("prescribed", grips[i])) one.grip = end.grips[i];
   return progress;
 }
 

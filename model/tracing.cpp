@@ -22,9 +22,9 @@ namespace {
 // Every branch, one after the other.
 class PathTracing final : public Tracing {
  public:
-  // `ended_stages`: the λ at which the stages before the model's have ended. `reverses`: λ turns at the start.
+  // `ended_stages`: how the stages before the model's have ended. `reverses`: λ turns at the start.
   PathTracing(const Model& model, Record& record, const State& start, StepLedger ledger,
-              std::vector<double> ended_stages = {}, bool reverses = false)
+              std::vector<StageEnd> ended_stages = {}, bool reverses = false)
       : model_(model),
         record_(record),
         reverses_(reverses),
@@ -187,8 +187,9 @@ class StageTracing final : public Tracing {
     if (tracing_->advance()) return true;
     if (!goes_on()) return false;
     const State last = record_.points.back().state;
-    model_.begin_stage(last.lambda);
-    begin(stage_ + 1, model_.at_stage(stage_ + 1).taken_over(last));
+    const Model& ended = model_.at_stage(stage_);
+    model_.begin_stage(ended.end_in(last));
+    begin(stage_ + 1, model_.at_stage(stage_ + 1).taken_over(last, ended));
     return tracing_->advance();
   }
 
@@ -201,16 +202,16 @@ class StageTracing final : public Tracing {
     Index stage = 0;
     archive(stage);
     archive.require(stage == static_cast<Index>(model_.ended_stages().size()));
-    begin(stage, State{.x = Vector::Zero(model_.system().size(model_.system().open_active_set())),
-                       .lambda = 0.0,
-                       .active_set = model_.system().open_active_set()});
+    const System& system = model_.at_stage(stage).system();
+    const ActiveSet open = system.open_active_set();
+    begin(stage, State{.x = Vector::Zero(system.size(open)), .lambda = 0.0, .active_set = open});
     archive(*tracing_);
   }
 
  private:
   void begin(Index stage, const State& start) {
     stage_ = stage;
-    const std::vector<double>& ended = model_.ended_stages();
+    const std::vector<StageEnd>& ended = model_.ended_stages();
     tracing_ = std::make_unique<PathTracing>(model_.at_stage(stage), record_, start, ledger_,
                                              std::vector(ended.begin(), ended.begin() + stage), drives_back(stage));
   }

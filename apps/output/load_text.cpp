@@ -121,6 +121,7 @@ LoadText movement_text(const deck::Prescribed& moved, const deck::Units& units) 
   add("displacement in x", moved.x, units.length);
   add("displacement in z", moved.z, units.length);
   add("rotation", moved.rotation, "rad");
+  if (moved.from == deck::MovedFrom::stage) result.text += " from where it is when its stage begins";
   return result;
 }
 

@@ -385,6 +385,7 @@ std::vector<std::pair<std::string, HeldPoint>> held_points(const deck::Deck& dec
       held.rotation = held.rotation || direction == Dof::rotation;
     }
   for (const deck::Prescribed& moved : deck.prescribed) {
+    if (!moved.holds) continue;
     HeldPoint& held = at(moved.point);
     held.x = held.x || moved.x;
     held.z = held.z || moved.z;

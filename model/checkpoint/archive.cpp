@@ -15,13 +15,8 @@ namespace {
 constexpr const char* of_an_event = "event";
 constexpr const char* of_friction = "friction";
 
-}  // namespace
-
-bool ArchiveModel::owns(const ActiveSet& active_set) const {
-  if (!system) return false;
-  if (active_set.layout() && EventSystem::meaning_of(*active_set.layout()))
-    return event != nullptr && active_set.empty();
-  const ActiveSet open = system->open_active_set();
+bool is_of(const System& system, const ActiveSet& active_set) {
+  const ActiveSet open = system.open_active_set();
   if ((active_set.layout() == nullptr) != (open.layout() == nullptr)) return false;
   if (const auto* friction = dynamic_cast<const FrictionLayout*>(active_set.layout().get()))
     return friction->contacts().size() == open.contacts() && active_set.size() == open.size() &&
@@ -34,11 +29,26 @@ bool ArchiveModel::owns(const ActiveSet& active_set) const {
          std::all_of(active_set.begin(), active_set.end(), is_status);
 }
 
+}  // namespace
+
+template <class Holds>
+bool ArchiveModel::any(const Holds& holds) const {
+  return (system != nullptr && holds(*system)) ||
+         std::any_of(later.begin(), later.end(), [&](const System* one) { return holds(*one); });
+}
+
+bool ArchiveModel::owns(const ActiveSet& active_set) const {
+  if (active_set.layout() && EventSystem::meaning_of(*active_set.layout()))
+    return system != nullptr && event != nullptr && active_set.empty();
+  return any([&](const System& one) { return is_of(one, active_set); });
+}
+
 bool ArchiveModel::owns(const State& state) const {
   if (state.x.size() == 0 && state.active_set == ActiveSet()) return true;
-  if (!owns(state.active_set)) return false;
-  const bool of_event = state.active_set.layout() && EventSystem::meaning_of(*state.active_set.layout());
-  return state.x.size() == (of_event ? event->size(state.active_set) : system->size(state.active_set));
+  if (state.active_set.layout() && EventSystem::meaning_of(*state.active_set.layout()))
+    return owns(state.active_set) && state.x.size() == event->size(state.active_set);
+  return any(
+      [&](const System& one) { return is_of(one, state.active_set) && state.x.size() == one.size(state.active_set); });
 }
 
 namespace archive_detail {

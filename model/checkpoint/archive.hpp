@@ -30,6 +30,7 @@ class BadArchive : public std::runtime_error {
 /// What the states of a run belong to.
 struct ArchiveModel {
   const System* system = nullptr;
+  std::vector<const System*> later{};            ///< of the stages that have begun after the first
   std::vector<const SlidingContact*> sliding{};  ///< of each stage that has begun; empty where contact is tied to nodes
   const EventSystem* event = nullptr;  ///< of the system's event that is followed, whose states may be met, too
 
@@ -37,6 +38,10 @@ struct ArchiveModel {
   /// anything is.
   bool owns(const State& state) const;
   bool owns(const ActiveSet& active_set) const;
+
+ private:
+  template <class Holds>
+  bool any(const Holds& holds) const;  // of the systems
 };
 
 namespace archive_detail {
@@ -157,8 +162,11 @@ class ArchiveReader {
 
   const ArchiveModel& model() const { return shared_->model; }
 
-  /// The contacts of stages that are known to have begun now.
-  void set_sliding(std::vector<const SlidingContact*> sliding) { shared_->model.sliding = std::move(sliding); }
+  /// The systems and contacts of stages that are known to have begun now.
+  void set_stages(ArchiveModel model) {
+    shared_->model.later = std::move(model.later);
+    shared_->model.sliding = std::move(model.sliding);
+  }
 
   /// That states of an event may follow.
   void set_event(const EventSystem* event) { shared_->model.event = event; }

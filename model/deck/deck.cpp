@@ -260,6 +260,15 @@ bool drives(const Stage& stage, const std::string& thing) {
   return std::find(stage.drives.begin(), stage.drives.end(), thing) != stage.drives.end();
 }
 
+std::optional<std::size_t> gripping_stage(const Deck& deck, std::size_t prescribed) {
+  if (deck.prescribed[prescribed].from == MovedFrom::rest) return std::nullopt;
+  const std::string name = driven_thing("prescribed", prescribed);
+  const auto first =
+      std::find_if(deck.stages.begin(), deck.stages.end(), [&](const Stage& stage) { return drives(stage, name); });
+  if (first == deck.stages.end()) return std::nullopt;
+  return static_cast<std::size_t>(first - deck.stages.begin());
+}
+
 // Sliding where contact forces are point forces. Springs, increments and walls without clearance act at nodes.
 bool acts_in(const Spring& spring, Dof direction) {
   struct Acts {

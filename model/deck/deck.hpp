@@ -216,6 +216,10 @@ struct Place {
 /// `P` or `column:0.5`, as in a deck.
 std::string to_text(const Place& place);
 
+/// From where a prescribed movement counts: the stress-free place, or the place where the point is when the first stage
+/// that drives the movement begins.
+enum class MovedFrom { rest, stage };
+
 /// A support that moves a point: the directions that are named are held.
 struct Prescribed {
   Position position{};
@@ -223,6 +227,8 @@ struct Prescribed {
   std::optional<double> x{}, z{};    ///< displacement [length]; at least one of these
   std::optional<double> rotation{};  ///< [rad]
   bool constant = false;             ///< not multiplied by λ
+  MovedFrom from = MovedFrom::rest;
+  bool holds = true;  ///< false in the deck of a stage before the one that takes hold of the point
 
   bool operator==(const Prescribed&) const = default;
 };
@@ -569,6 +575,10 @@ std::vector<std::string> driven_things(const Deck& deck);
 std::string driven_thing(const std::string& kind, std::size_t which);
 
 bool drives(const Stage& stage, const std::string& thing);
+
+/// Returns the stage, counted from 0, in which a movement takes hold of its point: the first that drives it. Empty of a
+/// movement from rest, and of one that no stage drives.
+std::optional<std::size_t> gripping_stage(const Deck& deck, std::size_t prescribed);
 
 /// Whether a spring, or a foundation, resists displacements or rotations of this kind.
 bool acts_in(const Spring& spring, Dof direction);

@@ -31,6 +31,8 @@ void prescribed_keys(Keys& keys, Prescribed& moved, const Deck& deck) {
   keys.number(optional("rotation", "free"), moved.rotation, unit::none, any_number,
               "of the rigidly joined member ends [rad]");
   keys.flag(optional("constant"), moved.constant, "constant, not scaled by λ");
+  keys.word(optional("from"), moved.from, moved_from_words,
+            "`\"stage\"`: free until the first stage that drives it, which fixes the point where it is");
   if (!keys.has("x") && !keys.has("z") && !keys.has("rotation"))
     keys.report("at", "nothing is prescribed", "give at least one of x, z and rotation");
 }
@@ -220,8 +222,52 @@ bool varies(const Deck& deck, const std::string& thing) {
   return found;
 }
 
+namespace {
+
+// What a movement that begins from a stage cannot be.
+void check_grip(Keys& root, const Deck& deck, std::size_t which) {
+  const Prescribed& moved = deck.prescribed[which];
+  const std::string name = driven_thing("prescribed", which);
+  Key key("prescribed");
+  key.position = moved.position;
+  const auto report = [&](const std::string& message, const std::string& cure) {
+    root.report_key(key, name + " has from = \"stage\", " + message, cure);
+  };
+  if (moved.constant)
+    return report("but is constant: it holds from the start", "leave out from, or leave out constant and drive it");
+  if (deck.stages.empty())
+    return report("but the deck has no stages",
+                  "leave out from, or write [[stage]] tables, of which a later one drives it");
+  if (gripping_stage(deck, which) == std::optional<std::size_t>(0))
+    return report("but the first stage drives it: there is no stage before in which the point could move",
+                  "leave out from, or let an earlier stage drive what moves the point");
+  const auto holds = [](const Support& support, Dof direction) {
+    return std::find(support.directions.begin(), support.directions.end(), direction) != support.directions.end();
+  };
+  const std::pair<Dof, bool> directions[] = {
+      {Dof::x, moved.x.has_value()}, {Dof::z, moved.z.has_value()}, {Dof::rotation, moved.rotation.has_value()}};
+  for (const Support& support : deck.supports)
+    for (const auto& [direction, given] : directions)
+      if (given && support.point == moved.point && holds(support, direction))
+        return report(
+            "but support." + support.point + " holds " + text_of(direction_words, direction) + " from the start",
+            "leave out from, or take the direction from the support");
+  for (std::size_t other = 0; other < deck.prescribed.size(); ++other) {
+    if (other == which || deck.prescribed[other].point != moved.point) continue;
+    if (deck.prescribed[other].from == MovedFrom::stage && other > which) continue;  // told there
+    const std::string both = moved_by_both(deck.prescribed[other], moved);
+    if (!both.empty())
+      return report("but " + driven_thing("prescribed", other) + " holds " + moved.point + " in " + both + ", too",
+                    "write one movement of the direction, and drive it in several stages");
+  }
+}
+
+}  // namespace
+
 // A constant movement and one that λ multiplies add, and so do those that stages drive apart.
 void check_movements(Keys& root, const Deck& deck) {
+  for (std::size_t i = 0; i < deck.prescribed.size(); ++i)
+    if (deck.prescribed[i].from == MovedFrom::stage) check_grip(root, deck, i);
   const auto name = [](std::size_t i) { return driven_thing("prescribed", i); };
   const auto driven_apart = [&](std::size_t a, std::size_t b) {
     return std::any_of(deck.stages.begin(), deck.stages.end(),
@@ -232,6 +278,7 @@ void check_movements(Keys& root, const Deck& deck) {
       const Prescribed &second = deck.prescribed[i], &first = deck.prescribed[j];
       const std::string directions = moved_by_both(first, second);
       if (first.point != second.point || directions.empty() || first.constant != second.constant) continue;
+      if (first.from == MovedFrom::stage || second.from == MovedFrom::stage) continue;  // reported as a grip
       if (!first.constant && driven_apart(i, j)) continue;
       Key key("prescribed");
       key.position = second.position;

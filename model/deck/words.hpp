@@ -55,6 +55,7 @@ inline constexpr Words<SpringLaw::Interpolation, 2> interpolation_words{
     {{"smooth", SpringLaw::Interpolation::smooth}, {"linear", SpringLaw::Interpolation::linear}}};
 inline constexpr Words<LoadFrame, 2> frame_words{{{"global", LoadFrame::global}, {"member", LoadFrame::member}}};
 inline constexpr Words<LoadMeasure, 2> per_words{{{"length", LoadMeasure::axis}, {"x", LoadMeasure::plan}}};
+inline constexpr Words<MovedFrom, 2> moved_from_words{{{"rest", MovedFrom::rest}, {"stage", MovedFrom::stage}}};
 inline constexpr Words<QuadraticTerm, 2> along_words{
     {{"fixed", QuadraticTerm::fixed}, {"director", QuadraticTerm::director}}};
 inline constexpr Words<TrussStrain, 3> strain_words{
