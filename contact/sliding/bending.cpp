@@ -1,5 +1,6 @@
 #include "contact/sliding/bending.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "contact/sliding/differences.hpp"
@@ -211,6 +212,19 @@ double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, do
   const double bending = natural_moment_second(body, here, held.lambda) / held.stretch;
   const double side = sign_of(setting.obstacles[held.touch.obstacle].surface->side());
   return -side * held.travel * (bending + load_on(setting, held, ahead).dot(perp(unit_tangent(held.angle))));
+}
+
+bool pressure_vanishes_for_all_lambda(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
+  const double length = setting.body.length(held.touch.strand);
+  const auto is_zero = [&](double lambda) {
+    HeldAxis there = held;
+    there.lambda = lambda;
+    double greatest = 0.0;
+    for (const double fraction : {0.0, 0.5, 1.0})
+      greatest = std::max(greatest, std::abs(straight_pressure(setting, there, fraction * length - held.s)));
+    return std::abs(straight_pressure(setting, there, ahead)) <= zero_rate * greatest;
+  };
+  return is_zero(held.lambda - 1.0) && is_zero(held.lambda) && is_zero(held.lambda + 1.0);
 }
 
 // ± [(EI κ̂)″ − (EI κ₀)″/Λ + P κ̂ − q·n]. Its sign says whether the body lies on the wall there, its vanishing that it

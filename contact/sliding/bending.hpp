@@ -70,6 +70,10 @@ HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, const 
 /// where it presses (8.7).
 double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 
+/// Whether that is zero at this λ and all others, but for round-off of what it is elsewhere along the strand: as at an
+/// end where the load falls to nothing. There it is no bound.
+bool pressure_vanishes_for_all_lambda(const SlidingSetting& setting, const HeldAxis& held, double ahead);
+
 /// Its derivative along the body, at a point that stays.
 double straight_pressure_slope(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 

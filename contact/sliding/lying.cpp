@@ -70,14 +70,19 @@ bool lies_along(const SlidingSetting& setting, const SlidingState& at, Index str
   return true;
 }
 
-// Whether what acts along a strand presses it on an obstacle everywhere at this λ.
+// Whether what acts along a strand presses it on an obstacle everywhere at this λ, but at an end where nothing ever
+// acts.
 bool is_pressed_at(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
                    double lambda) {
   constexpr int places = 64;
   HeldAxis held = held_axis_at_end(setting, at, {.strand = strand, .obstacle = obstacle});
   held.lambda = lambda;
-  for (int i = 0; i <= places; ++i)
-    if (!(straight_pressure(setting, held, setting.body.length(strand) * i / places) > 0.0)) return false;
+  for (int i = 0; i <= places; ++i) {
+    const double s = setting.body.length(strand) * i / places;
+    const bool at_end = i == 0 || i == places;
+    if (straight_pressure(setting, held, s) > 0.0) continue;
+    if (!at_end || !pressure_vanishes_for_all_lambda(setting, held, s)) return false;
+  }
   return true;
 }
 
@@ -209,15 +214,20 @@ HoldingMoment holding_moment(const SlidingSetting& setting, const SlidingState& 
       at.mesh.coordinate(end.strand, element + 1, at.now.s) - at.mesh.coordinate(end.strand, element, at.now.s);
   const double half = halves * h * h / 24.0,
                sign = outward(setting.obstacles[end.obstacle].surface->side(), last) * held.travel;
-  HoldingMoment moment{
-      .value = sign * at.state.x[at.index.tip_moment(tip)] - half * straight_pressure(setting, held, s - held.s),
-      .row = straight_pressure_gradient(setting, at, held, s - held.s)};
-  moment.row.dx *= -half;
-  moment.row.dlambda *= -half;
+  const double by_change = pressure_of_end_element(part.elements).moment_by_change;
+  const double at_end = s - held.s, at_next = at_end + (last ? -h : h);
+  const double pressure = (1.0 - by_change) * straight_pressure(setting, held, at_end) +
+                          by_change * straight_pressure(setting, held, at_next);
+  HoldingMoment moment{.value = sign * at.state.x[at.index.tip_moment(tip)] - half * pressure,
+                       .row = straight_pressure_gradient(setting, at, held, at_end)};
+  const Row next = straight_pressure_gradient(setting, at, held, at_next);
+  moment.row.dx = -half * ((1.0 - by_change) * moment.row.dx + by_change * next.dx);
+  moment.row.dlambda = -half * ((1.0 - by_change) * moment.row.dlambda + by_change * next.dlambda);
   if (part.has_point()) {  // the elements become longer or shorter with the part
-    const double by_length = -2.0 * half / h * straight_pressure(setting, held, s - held.s);
+    const double by_length = -2.0 * half / h * pressure,
+                 by_place = -half * by_change * straight_pressure_slope(setting, held, at_next);
     const auto edge = static_cast<Index>(part.end_point());
-    moment.row.dx[at.index.coordinate(edge)] += (last ? -by_length : by_length) / part.elements;
+    moment.row.dx[at.index.coordinate(edge)] += ((last ? -by_length : by_length) + by_place) / part.elements;
   }
   moment.row.dx[at.index.tip_moment(tip)] += sign;
   return moment;

@@ -151,14 +151,18 @@ struct AheadOfPoint {
   double operator()(double r) const { return from + r * length; }
 };
 
-// The least of what the node sees, at an end or between.
+// The least of what the node sees, at an end or between. At an end of the strand where the pressure is zero for all λ
+// it is no bound: what the pressure beside it is says whether the part lies on.
 AtFraction least_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
   constexpr int digits = 26;  // binary, of the place
   const double h = 1.0 / part.segment.elements;
-  const double from = part.node == 0 ? 0.0 : (double(part.node) + 0.5) * h;
-  const double to = part.node == part.nodes - 1 ? 1.0 : (double(part.node) + 1.5) * h;
+  double from = part.node == 0 ? 0.0 : (double(part.node) + 0.5) * h;
+  double to = part.node == part.nodes - 1 ? 1.0 : (double(part.node) + 1.5) * h;
   const HeldAxis held = held_axis(setting, at, part.segment);
   const AheadOfPoint ahead(setting, at, part.segment);
+  const auto is_no_bound = [&](double r) { return pressure_vanishes_for_all_lambda(setting, held, ahead(r)); };
+  if (from == 0.0 && part.segment.first_point < 0 && is_no_bound(0.0)) from = 0.5 * h;
+  if (to == 1.0 && part.segment.last_point < 0 && is_no_bound(1.0)) to = 1.0 - 0.5 * h;
   const auto pressure = [&](double r) { return straight_pressure(setting, held, ahead(r)); };
   const auto at_fraction = [&](double r) { return AtFraction{.r = r, .pressure = pressure(r)}; };
   const AtFraction first = at_fraction(from), middle = at_fraction(0.5 * (from + to)), last = at_fraction(to);
@@ -239,7 +243,19 @@ double least_pressure_rate(const SlidingSetting& setting, const SlidingMotion& m
   return apply(least_pressure_gradient(setting, motion.at, node), motion.direction);
 }
 
-// The pressure is linear over the element: ∫ (p₀ + (p₁ − p₀) ξ) (1 − 3ξ² + 2ξ³) h dξ.
+// The angles φ at the nodes of a part of n elements under a linear pressure, zero at its ends, are those of
+//
+//     EI/h (2 φᵢ₋₁ + 8 φᵢ + 2 φᵢ₊₁) = −h² Δ/15,     φ₁ = −c h³ Δ/(15 EI),     12 c = 1 − (z + zⁿ⁻¹)/(1 + zⁿ)
+//
+// with z = √3 − 2 and the change Δ of the pressure over an element. They add 6 EI φ₁/h² to the force of the element at
+// the end and 2 EI φ₁/h to its moment there, which would be h (7 p₀ + 3 p₁)/20 and h² (3 p₀ + 2 p₁)/60 between clamped
+// nodes.
+PressureOfEndElement pressure_of_end_element(int elements) {
+  const double z = std::sqrt(3.0) - 2.0, n = double(elements);
+  const double c = (1.0 - (z + std::pow(z, n - 1.0)) / (1.0 + std::pow(z, n))) / 12.0;
+  return {.force_by_change = 0.15 - 0.4 * c, .moment_by_change = 0.4 - 1.6 * c};
+}
+
 PressureAtEnd pressure_at_end(const SlidingSetting& setting, const SlidingState& at, std::size_t segment, bool last) {
   const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
   const double h = extent(setting, at, part).length / part.elements;
@@ -255,7 +271,8 @@ PressureAtEnd pressure_at_end(const SlidingSetting& setting, const SlidingState&
     at_end = on.pressure(end);
     at_next = on.pressure(next);
   }
-  return {.force = h * (0.35 * at_end + 0.15 * at_next), .length = 0.5 * h};
+  const double by_change = pressure_of_end_element(part.elements).force_by_change;
+  return {.force = h * (0.5 * at_end + by_change * (at_next - at_end)), .length = 0.5 * h};
 }
 
 }  // namespace arcwall::sliding

@@ -28,6 +28,14 @@ Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& a
 /// Its derivative along a direction.
 double least_pressure_rate(const SlidingSetting& setting, const SlidingMotion& motion, std::size_t node);
 
+/// What a linear pressure p, which changes by Δ over an element, makes at the end of a part that is pressed with so
+/// many of them: the force h (½ p + `force_by_change` Δ) and the moment (h²/12) (p + `moment_by_change` Δ) of the node
+/// there.
+struct PressureOfEndElement {
+  double force_by_change = 0.0, moment_by_change = 0.0;  // [-]
+};
+PressureOfEndElement pressure_of_end_element(int elements);
+
 /// What the pressure of a pressed part adds to the force of the node at one of its ends.
 struct PressureAtEnd {
   double force = 0.0;   ///< of the wall, by the end's shape function [force]

@@ -174,6 +174,76 @@ profile = { type = "flat", z = 0.0 }
   test::expect_whole(run);
 }
 
+// A load a − b s that falls to nothing at the tip presses a cantilever on a floor δ below it: its tip touches, and lies
+// down at 180 EI δ/L⁴ for a. Then the strip lies from c on, with w = −δ, w′ = w″ = 0 there: a c⁴/72 − b c⁵/120 = EI δ.
+// The edge bears a c/3 − b c²/4, and at the tip, where the load is zero whatever λ is, nothing acts.
+TEST(LineLoads, ThatFallToNothingAtATipLayItDown) {
+  constexpr double EI = 1e6, L = 10.0, delta = 1e-3, q0 = 10.0;
+  for (const char* theory : {"euler-bernoulli", "elastica"}) {
+    const TracedDeck run(fmt::format(R"toml(
+title = "A strip under a triangle"
+material.m = {{ E = 1e4 }}
+section.s = {{ shape = "general", A = 1e2, I = 1e2 }}
+point = {{ clamp = [0.0, 0.0], tip = [10.0, 0.0] }}
+support = {{ clamp = ["x", "z", "rotation"] }}
+load = [{{ on = "strip", distributed = [0.0, -10.0], distributed_to = [0.0, 0.0] }}]
+path = {{ step = 0.2, stop = {{ lambda = [-0.1, 10.0] }} }}
+monitor = [{{ name = "wall", wall = "floor", component = "force-z" }}, {{ name = "edge", wall = "floor", member = "strip", component = "contact-start" }}]
+member.strip = {{ from = "clamp", to = "tip", theory = "{}", elements = 20, material = "m", section = "s" }}
+[[wall]]
+name = "floor"
+side = "below"
+contact_surface = "axis"
+profile = {{ type = "flat", z = -1e-3 }}
+)toml",
+                                     theory));
+    EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop);
+    const RecordEvent& spreads = test::event_of(run, EventKind::contact_spreads);
+    EXPECT_NEAR(spreads.lambda * q0, 180.0 * EI * delta / std::pow(L, 4), 1e-6 * spreads.lambda * q0);
+    const RecordPoint& last = run.record().points.back();
+    const double a = 10.0 * q0, b = a / L;
+    double low = 0.0, high = L;
+    while (high - low > 1e-13) {
+      const double c = 0.5 * (low + high);
+      (a * std::pow(c, 4) / 72.0 - b * std::pow(c, 5) / 120.0 < EI * delta ? low : high) = c;
+    }
+    const double c = low, edge = a * c / 3.0 - b * c * c / 4.0;
+    EXPECT_NEAR(last.monitors.at(1), c, 1e-5 * c) << theory;
+    EXPECT_NEAR(last.monitors.at(0), edge + 0.5 * b * (L - c) * (L - c), 1e-5 * edge) << theory;
+    ASSERT_GE(last.forces.size(), 2u);
+    EXPECT_NEAR(last.forces.front().force, edge, 1e-5 * edge);
+    EXPECT_NEAR(last.forces.back().force, 0.0, 1e-7 * edge);  // at the tip
+    test::expect_whole(run);
+  }
+}
+
+// A strip on a floor whose weight falls to nothing at the end that a force lifts lies there from the start: q₁ s from
+// its free end bends what is off by F = q₁ l²/6, and its end rises by w = F l³/3 − q₁ l⁵/30 over EI.
+TEST(LineLoads, ThatFallToNothingHoldAStripOnAFloor) {
+  const TracedDeck run(R"toml(
+title = "A strip that weighs nothing at its end"
+material.m = { E = 1e4 }
+section.s = { shape = "general", A = 1e2, I = 1e2 }
+point = { free = [0.0, 0.0], clamp = [10.0, 0.0] }
+support = { clamp = ["x", "z", "rotation"] }
+load = [{ on = "strip", distributed = [0.0, 0.0], distributed_to = [0.0, -0.06], constant = true }, { at = "free", force = [0.0, 0.02] }]
+path = { step = 0.2, stop = { lambda = [-0.1, 1.0] } }
+monitor = [{ name = "w", at = "free", component = "z" }]
+member.strip = { from = "free", to = "clamp", theory = "euler-bernoulli", elements = 20, material = "m", section = "s" }
+[[wall]]
+name = "floor"
+side = "below"
+contact_surface = "axis"
+profile = { type = "flat", z = 0.0 }
+)toml");
+  constexpr double F = 0.02, q1 = 0.006, EI = 1e6;
+  const double l = std::sqrt(6.0 * F / q1);
+  const double w = (F * std::pow(l, 3) / 3.0 - q1 * std::pow(l, 5) / 30.0) / EI;
+  EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop);
+  EXPECT_NEAR(run.record().points.back().monitors.at(0), w, 1e-7 * w);
+  test::expect_whole(run);
+}
+
 TEST(LineLoads, ByLengthOfPlanAreRefusedOnAVerticalMember) {
   std::string post =
       cantilever("theory = \"elastica\"", "load = [{ on = \"beam\", distributed = [0.0, -1.0], per = \"x\" }]\n");
