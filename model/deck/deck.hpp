@@ -200,6 +200,7 @@ struct Support {
   std::string point{};
   Position position{};
   std::vector<Dof> directions{};  ///< at least one, each once
+  std::optional<Dof> symmetry{};  ///< the direction across a plane of symmetry that it stands for
 
   bool operator==(const Support&) const = default;
 };

@@ -13,12 +13,12 @@ namespace {
 bool support_key(Keys& keys, const Key& key, Support& support, const Deck& deck) {
   if (keys.refers(key, Named::point) && !ends_a_member(deck, support.point))
     keys.report_key(key, "no member ends at this point", "support the end of a member");
-  if (keys.holds_array(key.name)) {
+  const bool is_plane = keys.reads() ? !keys.holds_array(key.name) : support.symmetry.has_value();
+  if (!is_plane) {
     keys.words(key, support.directions, direction_words, "is no direction", "the directions that are fixed");
-    return true;
+  } else if (keys.word(key, support.symmetry, symmetry_words, "a plane of symmetry")) {
+    support.directions = {*support.symmetry, Dof::rotation};
   }
-  std::optional<Dof> across;
-  if (keys.word(key, across, symmetry_words, "a plane of symmetry")) support.directions = {*across, Dof::rotation};
   return true;
 }
 
@@ -224,6 +224,47 @@ bool varies(const Deck& deck, const std::string& thing) {
 
 namespace {
 
+// Whether a load acts at a point, be it named as an end of a member.
+bool acts_at(const Deck& deck, const Place& at, const std::string& point) {
+  if (!at.fraction) return at.name == point;
+  const Member* const member = find(deck.members, at.name);
+  return member != nullptr &&
+         ((*at.fraction == 0.0 && member->from == point) || (*at.fraction == 1.0 && member->to == point));
+}
+
+// The mirror image of what acts across a plane of symmetry at a point of it, or turns it, acts against it.
+void check_plane(Keys& root, const Deck& deck, const Support& plane) {
+  const bool across_x = *plane.symmetry == Dof::x;
+  const std::string axis = across_x ? "x" : "z";
+  const auto report = [&](const char* table, const Position& position, const std::string& what,
+                          const std::string& cure) {
+    Key key(table);
+    key.position = position;
+    root.report_key(key, what + " the plane of symmetry at " + plane.point + ": its mirror image would act against it",
+                    cure);
+  };
+  for (std::size_t i = 0; i < deck.loads.size(); ++i) {
+    const auto* const load = std::get_if<PointLoad>(&deck.loads[i].action);
+    if (load == nullptr || !acts_at(deck, load->at, plane.point)) continue;
+    if ((across_x ? load->force.x : load->force.z) != 0.0)
+      report("load", deck.loads[i].position, driven_thing("load", i) + " acts across",
+             "leave out its component in " + axis + ", or model the whole");
+    if (load->moment != 0.0)
+      report("load", deck.loads[i].position, driven_thing("load", i) + " turns",
+             "leave out its moment, or model the whole");
+  }
+  for (std::size_t i = 0; i < deck.prescribed.size(); ++i) {
+    const Prescribed& moved = deck.prescribed[i];
+    if (moved.point != plane.point) continue;
+    if (across_x ? moved.x.has_value() : moved.z.has_value())
+      report("prescribed", moved.position, driven_thing("prescribed", i) + " moves across",
+             "leave out its " + axis + ", or model the whole");
+    if (moved.rotation)
+      report("prescribed", moved.position, driven_thing("prescribed", i) + " turns",
+             "leave out its rotation, or model the whole");
+  }
+}
+
 // What a movement that begins from a stage cannot be.
 void check_grip(Keys& root, const Deck& deck, std::size_t which) {
   const Prescribed& moved = deck.prescribed[which];
@@ -266,6 +307,8 @@ void check_grip(Keys& root, const Deck& deck, std::size_t which) {
 
 // A constant movement and one that λ multiplies add, and so do those that stages drive apart.
 void check_movements(Keys& root, const Deck& deck) {
+  for (const Support& support : deck.supports)
+    if (support.symmetry) check_plane(root, deck, support);
   for (std::size_t i = 0; i < deck.prescribed.size(); ++i)
     if (deck.prescribed[i].from == MovedFrom::stage) check_grip(root, deck, i);
   const auto name = [](std::size_t i) { return driven_thing("prescribed", i); };

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/text.hpp"
+#include "model/deck/reader.hpp"
 #include "tests/model/traced_session.hpp"
 
 namespace arcwall::symmetry_planes_test {
@@ -287,6 +289,39 @@ TEST(SymmetryPlane, IsWhatASupportHolds) {
 
 // Both halves of a wiper blade are there and meet at a support on the plane, with a kink of 8e-4 that is hollow to the
 // screen: contact begins a hundredth of a half beside the plane, and the middle takes up all load from there on.
+// What acts across the plane at its point, or turns it there, is refused; what acts along it, or beside it, is taken.
+TEST(SymmetryPlane, HasNothingThatActsAcrossIt) {
+  const auto said = [](const std::string& more) {
+    try {
+      deck::read_deck_text(R"toml(title = "Half a beam"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1.0, I = 1.0 }
+point = { mid = [0.0, 0.0], right = [1.0, 0.0] }
+support = { mid = "symmetry-x", right = ["z"] }
+member.m = { from = "mid", to = "right", theory = "elastica", elements = 4, material = "m", section = "s" }
+)toml" + more,
+                           "half.toml");
+    } catch (const InputError& error) {
+      return to_text(error.diagnostics().front());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(said("load = [{ at = \"mid\", force = [0.0, -1.0] }, { on = \"m\", distributed = [1.0, -1.0] }]\n"), "");
+  EXPECT_EQ(said("prescribed = [{ at = \"mid\", z = -1.0 }]\n"), "");
+  const auto expect = [&](const std::string& more, const std::string& says) {
+    const std::string problem = said(more);
+    EXPECT_NE(problem.find(says), std::string::npos) << problem;
+    EXPECT_NE(problem.find("half.toml:7"), std::string::npos) << problem;
+  };
+  expect("load = [{ at = \"mid\", force = [1.0, -1.0] }]\n",
+         "load.0 acts across the plane of symmetry at mid: its mirror image would act against it; leave out its "
+         "component in x, or model the whole");
+  expect("load = [{ at = \"m:0.0\", force = [1.0, 0.0] }]\n", "load.0 acts across the plane of symmetry at mid");
+  expect("load = [{ at = \"mid\", moment = 1.0 }]\n", "load.0 turns the plane of symmetry at mid");
+  expect("prescribed = [{ at = \"mid\", x = 1.0 }]\n", "prescribed.0 moves across the plane of symmetry at mid");
+  expect("prescribed = [{ at = \"mid\", rotation = 1.0 }]\n", "prescribed.0 turns the plane of symmetry at mid");
+}
+
 TEST(SymmetryPlane, MayHaveBothHalves) {
   const Session run = test::traced(R"toml(
 title = "Flat wiper blade pressed on a windscreen"
