@@ -7,8 +7,11 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "model/deck/reader.hpp"
+#include "model/event_curve.hpp"
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/expect_whole.hpp"
 
@@ -235,12 +238,127 @@ TEST(TaperedMembers, LieOnADrumAlike) {
   EXPECT_NEAR(last(coarse, "z"), last(fine, "z"), 1e-5);
 }
 
+// A strip that widens and gets thinner lies on a drum: with κ = −1/R of its axis and M = EI κ the pressure is
+// (N − EI″)/R, N = F·t at the end of the part and, towards the clamp, N′ = −κ² EI′. Up to half of it and more comes
+// from EI″.
+TEST(TaperedMembers, PressOnADrumByTheirMoments) {
+  constexpr double E = 2.0e5, L = 200.0, R = 150.0, F = 400.0;
+  const auto b = [](double s) { return 8.0 + 12.0 * s / L; };
+  const auto h = [](double s) { return 2.0 - 0.8 * s / L; };
+  const auto EI = [&](double s) { return E * b(s) * std::pow(h(s), 3) / 12.0; };
+  const auto EI_second = [&](double s) {
+    constexpr double by_b = 12.0 / L, by_h = -0.8 / L;
+    return 0.5 * E * h(s) * by_h * (by_b * h(s) + b(s) * by_h);
+  };
+  std::string deck = drum(40, "contact_surface = \"axis\"");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    deck.replace(deck.find(from), from.size(), to);
+  };
+  replace("width = 20.0, width_to = 8.0, height = 2.0, height_to = 1.0",
+          "width = 8.0, width_to = 20.0, height = 2.0, height_to = 1.2");
+  replace("lambda = [-0.1, 0.8]", "lambda = [-0.1, 2.0]");
+  const TracedDeck run(deck);
+  const RecordPoint& point = run.record().points.back();
+  ASSERT_EQ(point.lambda, 2.0);
+  double end = 0.0, x_end = 0.0;  // of the part, towards the tip
+  for (const RecordForce& force : point.forces)
+    if (L * force.label.fraction > end) std::tie(end, x_end) = std::pair(L * force.label.fraction, force.x);
+  const double N_end = F * (x_end - 80.0) / R;
+  std::vector<ContactPoint> nodes = run.model().contacts()->pressed_nodes(run.last());
+  const auto is_before = [](const ContactPoint& one, const ContactPoint& other) {
+    return one.label.fraction < other.label.fraction;
+  };
+  std::sort(nodes.begin(), nodes.end(), is_before);
+  ASSERT_GT(nodes.size(), 8U);
+  double most_by_bending = 0.0;
+  // Beside the ends nodes that turn freely share the pressure unevenly.
+  for (std::size_t i = 3; i + 3 < nodes.size(); ++i) {
+    const double s = L * nodes[i].label.fraction, pressure = nodes[i].pressure().value();
+    const double N = N_end + (EI(end) - EI(s)) / (R * R), expected = (N - EI_second(s)) / R;
+    most_by_bending = std::max(most_by_bending, -EI_second(s) / R / expected);
+    EXPECT_NEAR(pressure, expected, 2e-3 * expected) << s;
+  }
+  EXPECT_GT(most_by_bending, 0.05);
+  test::expect_whole(run);
+}
+
 TEST(TaperedMembers, ThatFacesTouchHaveContactAtNodes) {
   const TracedDeck run(drum(20, ""));
   EXPECT_EQ(run.model().sliding(), nullptr);
   EXPECT_NE(
       test::said_of(drum(20, "", "[contact]\npoints = \"moving\"\n")).find("since its height tapers; use \"nodes\""),
       std::string::npos);
+}
+
+namespace {
+
+// A cantilever of length 10 whose height stays 0.01 and whose width goes from the clamp to the tip, pressed at its tip.
+std::string tapered_column(double width_to, const std::string& more = "") {
+  return fmt::format(R"toml(
+title = "A column that tapers"
+material.m = {{ E = 1.0e9 }}
+section.s = {{ shape = "rectangle", width = 0.12, width_to = {:.17g}, height = 0.01 }}
+point = {{ clamp = [0.0, 0.0], tip = [10.0, 0.0] }}
+support = {{ clamp = ["x", "z", "rotation"] }}
+load = [{{ at = "tip", force = [-1.0, 0.0] }}]
+path = {{ step = 0.02, branches = "primary", stop = {{ event = "branch-point", lambda = [-0.1, 1.0] }} }}
+member.s = {{ from = "clamp", to = "tip", theory = "elastica", elements = 24, material = "m", section = "s" }}
+{})toml",
+                     width_to, more);
+}
+
+// In small slopes EI w″ + P w = 0, w from the tip: w = 0 there and w′ = 0 at the clamp. With EI = c y, y = g + s from
+// the tip on, w is √y J₁(k √y) and √y Y₁(k √y), k = 2 √(P/c), whose derivatives are ½ k J₀ and ½ k Y₀.
+double buckling_load(double width_to) {
+  constexpr double E = 1.0e9, h = 0.01, L = 10.0, width = 0.12;
+  const double c = E * h * h * h / 12.0 * (width - width_to) / L, g = width_to * L / (width - width_to);
+  const auto condition = [&](double P) {
+    const double k = 2.0 * std::sqrt(P / c), tip = k * std::sqrt(g), clamp = k * std::sqrt(g + L);
+    return std::cyl_neumann(1.0, tip) * std::cyl_bessel_j(0.0, clamp) -
+           std::cyl_bessel_j(1.0, tip) * std::cyl_neumann(0.0, clamp);
+  };
+  // Between the loads of a uniform column of the less and of the greater width.
+  const auto uniform = [&](double b) { return pi * pi * E * b * h * h * h / 12.0 / (4.0 * L * L); };
+  double low = uniform(width_to), high = uniform(width);
+  const bool rises = condition(high) > 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((condition(middle) > 0.0) == rises ? high : low) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+// The buckling load of a column of linear width is a zero of Bessel's functions: at one width, over all of them by
+// `curve`, and its derivative.
+TEST(TaperedMembers, BuckleOverTheirTaperAsBesselsFunctionsHaveIt) {
+  const auto slope_at = [](double width_to) {
+    const double step = 1e-3 * width_to;
+    return (8.0 * (buckling_load(width_to + step) - buckling_load(width_to - step)) -
+            (buckling_load(width_to + 2.0 * step) - buckling_load(width_to - 2.0 * step))) /
+           (12.0 * step);
+  };
+  const TracedDeck run(tapered_column(0.06), {"path.sensitivity=['section.s.width_to']"});
+  const RecordEvent& buckles = test::event_of(run, EventKind::branch_point);
+  const double P = buckling_load(0.06);
+  EXPECT_NEAR(buckles.lambda, P, 1e-6 * P);
+  EXPECT_NEAR(buckles.sensitivity.at(0).slope.value(), slope_at(0.06), 3e-6 * slope_at(0.06));
+  const EventCurve curve = trace_event_curve(
+      deck::read_deck_text(tapered_column(0.06,
+                                          "[curve]\nevent = { kind = \"branch-point\" }\nparameter = "
+                                          "\"section.s.width_to\"\nrange = [0.03, 0.1]\noutput_at = [0.08]\n"),
+                           "deck.toml"),
+      {});
+  ASSERT_EQ(curve.problem, "");
+  ASSERT_GT(curve.points.size(), 3U);
+  for (const CurvePoint& point : curve.points) {
+    EXPECT_NEAR(point.lambda, buckling_load(point.key), 1e-6 * point.lambda) << point.key;
+    EXPECT_NEAR(point.slope.value(), slope_at(point.key), 3e-6 * slope_at(point.key)) << point.key;
+  }
+  const TracedDeck there(tapered_column(curve.points.back().key));
+  const double lambda = curve.points.back().lambda;
+  EXPECT_NEAR(test::event_of(there, EventKind::branch_point).lambda, lambda, 1e-9 * lambda);
 }
 
 TEST(TaperedMembers, AreRefusedWithACure) {

@@ -86,6 +86,40 @@ TEST_F(SweepProgramTest, VariablesGoByName) {
       plan_wrong("title = \"Bars\"\ndeck = \"truss.toml\"\n[grid]\nhalf = [1.0]\nvariables.half = [2.0]\n").status, 0);
 }
 
+// The load at which a column of linear width buckles goes with its height cubed, whatever the widths.
+TEST_F(SweepProgramTest, TapersVaryByTheirKeys) {
+  put(work() / "column.toml", R"toml(
+title = "A column that tapers"
+material.m = { E = 1.0e9 }
+section.s = { shape = "rectangle", width = 0.12, width_to = 0.06, height = 0.01 }
+point = { clamp = [0.0, 0.0], tip = [10.0, 0.0] }
+support = { clamp = ["x", "z", "rotation"] }
+load = [{ at = "tip", force = [-1.0, 0.0] }]
+path = { step = 0.02, branches = "primary", stop = { event = "branch-point", lambda = [-0.1, 2.0] } }
+member.s = { from = "clamp", to = "tip", theory = "elastica", elements = 12, material = "m", section = "s" }
+)toml");
+  plan(
+      "title = \"Columns\"\ndeck = \"column.toml\"\n[grid]\nsection.s.width_to = [0.04, 0.08]\nsection.s.height = "
+      "[0.01, "
+      "0.012]\n");
+  ASSERT_EQ(run("sweep run study --jobs 2").status, 0);
+  ASSERT_EQ(run("sweep collect study").status, 0);
+  std::vector<double> loads;
+  for (const auto& row : table(content(study() / "sweep.csv")))
+    if (row.at(4) == "branch-point") loads.push_back(std::stod(row.at(8)));
+  ASSERT_EQ(loads.size(), 4u);
+  for (const std::size_t width : {0u, 1u}) {
+    const std::string value = width == 0 ? "0.04" : "0.08";
+    ASSERT_EQ(run("run column.toml --set section.s.width_to=" + value).status, 0);
+    const std::string events = content(work() / "column" / "events.json");
+    const auto event = nlohmann::json::parse(events)["events"][1];
+    EXPECT_EQ(event["kind"], "branch-point");
+    EXPECT_EQ(double(event["lambda"]), loads[2 * width]);
+    EXPECT_NEAR(loads[2 * width + 1], std::pow(1.2, 3) * loads[2 * width], 1e-6 * loads[2 * width]);
+  }
+  EXPECT_GT(loads[2], 1.1 * loads[0]);
+}
+
 TEST_F(SweepProgramTest, APlannedFolderStandsAlone) {
   plan(stiffness_sweep);
   EXPECT_EQ(names_in(study()), (std::set<std::string>{"cases.jsonl", "sweep.toml", "truss.toml"}));
