@@ -87,6 +87,7 @@ std::vector<Event> events_at_kink(const TraceTools& tools, const StepOrigin& ori
                                   const StabilityCount& behind) {
   const double off = kink_accuracy * std::abs(end.point.tangent.dlambda);
   std::vector<Event> events;
+  if (tools.detectors.empty()) return events;
   const auto add = [&](std::size_t which) -> Event& {
     events.push_back(detector_event(tools, origin, end, which, behind));
     events.back().lambda_uncertainty = std::max(events.back().lambda_uncertainty, off);
