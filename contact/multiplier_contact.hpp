@@ -18,6 +18,7 @@ struct ContactLaw {
     rigid,      ///< no gap, whatever the force
     penalty,    ///< springs in compression: p = −stiffness · gap
     augmented,  ///< no gap, and springs beside the forces that vanish with it: K alone holds the contacts
+    compliant,  ///< a pressure by penetration along members (WallPressure): no law of MultiplierContact
   };
   Method method = Method::rigid;
   double stiffness = 0.0;

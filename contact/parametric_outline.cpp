@@ -3,7 +3,7 @@
 #include <tuple>
 #include <utility>
 
-#include "contact/gauss_points.hpp"
+#include "core/gauss_points.hpp"
 #include "contact/outline.hpp"
 #include "core/cubic_spline.hpp"
 

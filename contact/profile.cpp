@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/gauss_points.hpp"
+#include "core/gauss_points.hpp"
 #include "core/cubic_spline.hpp"
 
 namespace arcwall {

@@ -12,6 +12,7 @@
 #include "elements/heated_beam.hpp"
 #include "elements/pressure.hpp"
 #include "elements/reissner_beam.hpp"
+#include "elements/wall_pressure.hpp"
 
 namespace arcwall {
 
@@ -186,6 +187,61 @@ std::unique_ptr<Element> make_foundation(const MemberElement& at, const Foundati
       break;
   }
   return nullptr;
+}
+
+namespace {
+
+// Of a slender or shear-flexible beam, at a fraction of the element; `face`: how many half heights the line that
+// touches is off the axis.
+WallPressure::Node wall_node(const MemberElement& at, const CompliantWall& wall, const AxisPoint& axis,
+                             const AxisPoint& shape, double fraction, double face) {
+  const double member_fraction = (double(at.k) + fraction) / at.count();
+  const double half = 0.5 * at.mesh.height_at(member_fraction).value_or(0.0);
+  const MemberSection section{.axis = axis, .shape = shape, .quadratic = at.member.quadratic};
+  double growth = 0.0;  // of the half height along the axis
+  if (at.mesh.taper != nullptr && face != 0.0)
+    growth = 0.5 * at.mesh.taper->at(member_fraction, 1).height / at.mesh.length;
+  return {.place = shape.position,
+          .section = section.kinematics(),
+          .offset = face * half,
+          .angle = shape.angle + std::atan(face * growth),
+          .kept_off = wall.touched == CompliantWall::Touched::outside ? half - wall.kept_off : 0.0,
+          .arc = at.shape.length(at.arc(0.0), at.arc(fraction))};
+}
+
+// The faces that look at a wall, as numbers of half heights: FacedObstacle::offsets() of the element's chord.
+std::vector<double> faces_towards(const CompliantWall& wall, const Vec2& chord) {
+  if (wall.touched != CompliantWall::Touched::face) return {0.0};
+  constexpr double level = 1e-9;
+  const double up = (wall.is_over ? 1.0 : -1.0) * chord.x() / chord.norm();
+  if (std::abs(up) <= level) return {1.0, -1.0};
+  return {up > 0.0 ? 1.0 : -1.0};
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<Element>> make_wall_pressures(const MemberElement& at, const CompliantWall& wall,
+                                                          bool ramp) {
+  const MemberMesh& mesh = at.mesh;
+  const bool is_slender = at.member.theory == Theory::euler_bernoulli || at.member.theory == Theory::elastica;
+  std::vector<std::unique_ptr<Element>> pressures;
+  for (const double face : faces_towards(wall, at.chord())) {
+    std::vector<WallPressure::Node> nodes;
+    const auto add = [&](const AxisPoint& axis, const AxisPoint& shape, double fraction) {
+      nodes.push_back(wall_node(at, wall, axis, shape, fraction, face));
+    };
+    add(mesh.axis[at.k], mesh.shape[at.k], 0.0);
+    if (!is_slender && at.member.order == 2) {
+      const double middle = at.arc(0.5);
+      add(at.member.axis->at(middle), at.shape.at(middle), 0.5);
+    }
+    add(mesh.axis[at.k + 1], mesh.shape[at.k + 1], 1.0);
+    const int stride = at.member.theory == Theory::essenburg ? EssenburgBeam::unknowns_a_node : 3;
+    pressures.push_back(
+        std::make_unique<WallPressure>(is_slender ? WallPressure::Shape::cubic : WallPressure::Shape::lagrange,
+                                       std::move(nodes), stride, ramp ? wall.gap_of_ramp : wall.gap, wall.law));
+  }
+  return pressures;
 }
 
 std::unique_ptr<Element> make_pressure(const MemberElement& at, const Vec2& origin) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "elements/heated_beam.hpp"
 #include "elements/structure.hpp"
@@ -42,6 +43,10 @@ std::unique_ptr<Element> make_load(const MemberElement& at, const LineLoad& load
 
 /// A foundation along an element; bars have none.
 std::unique_ptr<Element> make_foundation(const MemberElement& at, const FoundationLaw& law);
+
+/// The pressures of a compliant wall on an element: one, or one on each face of sections that stand across the wall.
+std::vector<std::unique_ptr<Element>> make_wall_pressures(const MemberElement& at, const CompliantWall& wall,
+                                                          bool ramp);
 
 /// A pressure of 1 on the deformed axis of an element, whose potential counts places from `origin`; bars have none.
 std::unique_ptr<Element> make_pressure(const MemberElement& at, const Vec2& origin);

@@ -161,7 +161,7 @@ void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
   add_elements(state.x, F.data(), nullptr);
   for (const Index e : order_.driven) add_driven(elements_[e], e, state, F.data(), nullptr, nullptr);
   for (const ElementLoad& load : element_loads_)
-    add_driven(*load.potential, load.element, state, F.data(), nullptr, nullptr);
+    if (load.acts_on(state)) add_driven(*load.potential, load.element, state, F.data(), nullptr, nullptr);
 }
 
 // Elements of members know differences of displacements alone, and loads are dead: nodes that share no element with a
@@ -210,14 +210,16 @@ void Structure::linearize(const State& state, Linearization& out) const {
     add_driven(element, block, state, out.F.data(), values, out.F_lambda.data());
   };
   for (const Index e : order_.driven) add(elements_[e], e);
-  for (const ElementLoad& load : element_loads_) add(*load.potential, load.element);
+  for (const ElementLoad& load : element_loads_)
+    if (load.acts_on(state)) add(*load.potential, load.element);
 }
 
 double Structure::energy(const State& state) const {
   Local local;
   double energy = 0.0;
   for (Index e = 0; e < element_count(); ++e) energy += evaluate(elements_[e], e, state, local, false);
-  for (const ElementLoad& load : element_loads_) energy += evaluate(*load.potential, load.element, state, local, false);
+  for (const ElementLoad& load : element_loads_)
+    if (load.acts_on(state)) energy += evaluate(*load.potential, load.element, state, local, false);
   return energy + nodal_.energy(state.lambda, [&](Index dof) { return value(state, dof); });
 }
 
@@ -314,19 +316,19 @@ bool Structure::can_be_updated() const {
 }
 
 template <class Visit>
-void Structure::for_each_with(Index dof, const Visit& visit) const {
+void Structure::for_each_with(Index dof, const State& state, const Visit& visit) const {
   const auto has = [&](Index e) { return element_dofs(e).place_of(dof) < element_dofs(e).size(); };
   for (Index e = 0; e < element_count(); ++e)
     if (has(e)) visit(elements_[e], e);
   for (const ElementLoad& load : element_loads_)
-    if (has(load.element)) visit(*load.potential, load.element);
+    if (load.acts_on(state) && has(load.element)) visit(*load.potential, load.element);
 }
 
 double Structure::reaction(const State& state, Index dof) const {
   if (unknown(dof)) return 0.0;
   Local local;
   double force = nodal_.support_force(dof, state.lambda, [&](Index of) { return value(state, of); });
-  for_each_with(dof, [&](const Element& element, Index block) {
+  for_each_with(dof, state, [&](const Element& element, Index block) {
     evaluate(element, block, state, local, false);
     force += local.f[element_dofs(block).place_of(dof)];
   });
@@ -340,7 +342,7 @@ Row Structure::reaction_gradient(const State& state, Index dof) const {
   nodal_.add_support_force_gradient(
       dof, state.lambda, [this](Index of) { return unknown_or_held(of); }, [&](Index of) { return value(state, of); },
       row.dx, row.dlambda);
-  for_each_with(dof, [&](const Element& element, Index block) {
+  for_each_with(dof, state, [&](const Element& element, Index block) {
     evaluate(element, block, state, local, true);
     const std::size_t n = element_dofs(block).size(), i = element_dofs(block).place_of(dof);
     const ShiftedIndices unknowns = assembly_.unknowns(block);

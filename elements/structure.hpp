@@ -14,6 +14,7 @@
 #include "core/system.hpp"
 #include "core/tracked_point.hpp"
 #include "elements/axis.hpp"
+#include "elements/compliant_wall.hpp"
 #include "elements/element.hpp"
 #include "elements/element_order.hpp"
 #include "elements/essenburg_beam.hpp"
@@ -184,8 +185,14 @@ class Structure final : public System {
   /// Stores a load or a foundation along an element; its potential has the element's unknowns.
   struct ElementLoad {
     std::shared_ptr<const Element> potential;
-    Index element;             ///< also its block of the assembly
-    bool is_grounded = false;  ///< a foundation: it resists translation
+    Index element;                        ///< also its block of the assembly
+    bool is_grounded = false;             ///< a foundation or a compliant wall: it resists translation
+    std::optional<std::uint32_t> wall{};  ///< of a WallPressure: the number of its wall, in the order of add_wall()
+
+    /// Returns false for a wall that is open on the state's active set, whose entries are those of the walls.
+    bool acts_on(const State& state) const {
+      return !wall || *wall >= state.active_set.contacts() || state.active_set[*wall] != 0;
+    }
   };
   const std::vector<ElementLoad>& element_loads() const { return element_loads_; }
 
@@ -227,9 +234,9 @@ class Structure final : public System {
   void add_driven(const Element& element, Index block, const State& state, double* F, double* K,
                   double* F_lambda) const;
   // Calls visit(element, block) for each element that has the degree of freedom, and for each load along such an
-  // element.
+  // element that acts on the state.
   template <class Visit>
-  void for_each_with(Index dof, const Visit& visit) const;
+  void for_each_with(Index dof, const State& state, const Visit& visit) const;
   // Adds the forces of elements and, where K is not null, their stiffness to the values of K's matrix.
   void add(const ElementOrder::Four& four, const ClassicBeamLanes& beams, const Vector& x, double* F, double* K) const;
   void add_elements(const Vector& x, double* F, double* K) const;
@@ -330,6 +337,10 @@ class StructureBuilder {
   /// Adds a nonlinear foundation in x or z; the forces of its law are by length [force/length].
   void add_foundation(Index member, Dof direction, std::shared_ptr<const SpringLaw> law);
 
+  /// Adds a compliant wall in the way of a beam. Only for build(), not for build_sliding(); find_mechanism() ignores
+  /// it.
+  void add_wall(Index member, CompliantWall wall);
+
   /// Adds an element between degrees of freedom of members, in the order of its unknowns; at most
   /// Element::max_unknowns. Only for build(), not for build_sliding(); find_mechanism() ignores it.
   void add_element(std::shared_ptr<const Element> element, std::vector<Index> dofs);
@@ -401,6 +412,11 @@ class StructureBuilder {
   std::vector<NodalTerms::PressedEnd> pressed_ends() const;
   NodalTerms nodal_terms(bool ramp) const;
   std::vector<AddedElement> added_elements_;
+  struct WallOfMember {
+    Index member;
+    CompliantWall wall;
+  };
+  std::vector<WallOfMember> walls_;
 
   // The steps of build().
   std::unique_ptr<Structure> numbered() const;
@@ -412,6 +428,7 @@ class StructureBuilder {
   void add_dead_loads(Structure& structure, bool ramp) const;
   void add_foundations(Structure& structure) const;
   void add_pressures(Structure& structure, bool ramp) const;
+  void add_walls(Structure& structure, bool ramp) const;
   void scale_by_heat(Structure& structure, const std::vector<ThermalStrain>& thermal) const;
   static void sort_loads(Structure& structure);
 };

@@ -385,6 +385,26 @@ void StructureBuilder::add_pressures(Structure& structure, bool ramp) const {
   }
 }
 
+void StructureBuilder::add_wall(Index member, CompliantWall wall) {
+  assert(descriptions_[static_cast<std::size_t>(member)].theory != Theory::truss);
+  walls_.push_back({.member = member, .wall = std::move(wall)});
+}
+
+void StructureBuilder::add_walls(Structure& structure, bool ramp) const {
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    const auto m = static_cast<std::size_t>(walls_[i].member);
+    const MemberDescription& member = descriptions_[m];
+    const ImperfectAxis shape(*member.axis, member.imperfection);
+    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
+      for (auto& pressure :
+           make_wall_pressures({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}, walls_[i].wall, ramp))
+        structure.element_loads_.push_back({.potential = std::move(pressure),
+                                            .element = first_element_[m] + static_cast<Index>(k),
+                                            .is_grounded = true,
+                                            .wall = static_cast<std::uint32_t>(i)});
+  }
+}
+
 // The rate of heat, and the force that it would take to hold the members against it.
 void StructureBuilder::scale_by_heat(Structure& structure, const std::vector<ThermalStrain>& thermal) const {
   const double L = structure.length_scale_;
@@ -428,6 +448,7 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   add_dead_loads(*structure, ramp);
   add_foundations(*structure);
   add_pressures(*structure, ramp);
+  add_walls(*structure, ramp);
   sort_loads(*structure);
   return structure;
 }

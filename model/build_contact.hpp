@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "contact/sliding_contact.hpp"
 #include "elements/sliding_structure.hpp"
 #include "model/build_structure.hpp"
+#include "model/compliant_contact.hpp"
 #include "model/place_gap.hpp"
 
 namespace arcwall {
@@ -35,6 +37,20 @@ bool concerns(const deck::Wall& wall, const std::string& member);
 
 /// What stands in the way of a member where the deck has a wall, and the faces that it is touched by.
 FacedObstacle faced_obstacle(const deck::Wall& wall, const MemberMesh& mesh, double fraction);
+
+/// A compliant wall in the way of a member: as the structure has it, and as contact tells it.
+struct CompliantWallOfMember {
+  CompliantContact::Wall contact{};
+  CompliantWall pressure{};
+};
+
+/// Those of a deck, in the order in which the structure has them; none if its walls are not compliant. `mesh_of`: of
+/// each member.
+std::vector<CompliantWallOfMember> compliant_walls(const deck::Deck& deck,
+                                                   const std::function<const MemberMesh&(Index)>& mesh_of);
+
+/// Adds a problem for what does not go with compliant walls, and for each that a member penetrates at the start.
+void check_compliant_walls(const deck::Deck& deck, const Structure& structure, DeckProblems& problems);
 
 /// Holds the rotations of straight members that lie on a line between two rigid walls which leave no clearance, where
 /// sections turn with the axis: between its nodes it is on that line, too.

@@ -273,6 +273,12 @@ std::shared_ptr<const Observable> gap(const deck::Deck& deck, const Measured& fr
                  "add the member to `members` of the wall, or name a place of a member that is there");
     return nullptr;
   }
+  if (monitor.component != deck::Component::gap && deck.contact.is_compliant()) {
+    problems.add(monitor.position, "monitor.at",
+                 "a compliant wall presses along members: it has no force at \"" + to_text(monitor.at) + "\"",
+                 "give `member` instead of `at`");
+    return nullptr;
+  }
   if (monitor.component != deck::Component::gap)
     return wall_force(deck, from, monitor, end->mesh->name, end->mesh->fraction(end->position));
   return from.body.gap(index_of(*end->mesh, from.structure), end->position,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "elements/mechanism.hpp"
+#include "model/build_contact.hpp"
 
 namespace arcwall {
 
@@ -546,6 +547,10 @@ StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problem
       places_are_known = joined(action->at.name, action->at.position, "load.at") && places_are_known;
   if (places_are_known) add_loads(deck, coarse, problems, out);
   add_springs(deck, coarse, joined, problems, out);
+  if (!coarse)
+    for (const CompliantWallOfMember& wall :
+         compliant_walls(deck, [&](Index m) -> const MemberMesh& { return out.builder.mesh(m); }))
+      out.builder.add_wall(wall.contact.member, wall.pressure);
   if (!coarse) check_pressure(deck, problems, out);
   for (const auto& [name, joint] : out.places.joints)
     if (const auto rotation = out.builder.shared_rotation(joint)) out.places.rotations[name] = *rotation;

@@ -131,7 +131,7 @@ void check_friction(const deck::Deck& deck, const Structure& structure, const st
   if (sliding)
     problems.add({}, "contact.points", "friction is known for contact at nodes and at free ends alone",
                  "write points = \"nodes\", or leave it out");
-  if (deck.contact.method != ContactLaw::Method::rigid)
+  if (deck.contact.method != ContactLaw::Method::rigid && !deck.contact.is_compliant())
     problems.add({}, "contact.method", "springs in place of walls have no friction",
                  "contact.method = \"multiplier\" has");
   if (wants_increments(deck))

@@ -231,6 +231,7 @@ bool DeckMesh::is_complete() const {
 
 const UnilateralSystem& DeckMesh::system() const {
   if (model_.contact() != nullptr) return *model_.contact();
+  if (model_.compliant() != nullptr) return *model_.compliant();
   return model_.structure();
 }
 
@@ -240,7 +241,7 @@ Vector DeckMesh::unknowns(const State& of_model) const {
 }
 
 State DeckMesh::state(const Vector& unknowns, double lambda) const {
-  const ActiveSet active_set = model_.contact() != nullptr ? model_.contact()->open_active_set() : ActiveSet();
+  const ActiveSet active_set = system().open_active_set();
   State state{.x = Vector::Zero(system().size(active_set)), .lambda = lambda, .active_set = active_set};
   state.x.head(size_) = unknowns;
   return state;

@@ -121,7 +121,10 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
   DeckProblems not_at_rest(whole_deck_->source);  // where a stage begins the structure is no longer there
   if (may_slide(*deck_, described.builder)) sliding_structure_ = sliding_structure(described.builder, false);
   const PinchedPlaces pinched = sliding_structure_ ? pinched_places(*deck_, *sliding_structure_) : PinchedPlaces{};
-  auto candidates = contact_candidates(*deck_, *structure_, pinched, stage_ == 0 ? problems : not_at_rest);
+  DeckProblems& at_rest = stage_ == 0 ? problems : not_at_rest;
+  check_compliant_walls(*deck_, *structure_, at_rest);
+  std::vector<Candidate> candidates;
+  if (!deck_->contact.is_compliant()) candidates = contact_candidates(*deck_, *structure_, pinched, at_rest);
   const bool sliding = slides(*deck_, described.builder, candidates, problems);
   if (stage_ == 0) check_friction(*deck_, *structure_, candidates, sliding, problems);
   if (!sliding) sliding_structure_.reset();
@@ -252,13 +255,16 @@ double Model::stiffness_of_ramp_holds() const {
 // A loose body moves by any amount under hardly any load before it meets something: the λ that would deform it counts.
 double Model::lambda_scale_if_held(const deck::Deck& deck, bool ramp) const {
   const auto held = held_structure(ramp);
-  DeckProblems known(deck.source);
-  const MultiplierContact contact(*held, contact_candidates(deck, *held, {}, known), contact_->scales());
   TraceOptions options = options_;
   options.lambda_scale.reset();
-  const ActiveSet open = contact.open_active_set();
-  return Tracer(contact, {.state = {.x = Vector::Zero(contact.size(open)), .lambda = 0.0, .active_set = open}}, options)
-      .lambda_scale();
+  const auto scale_of = [&](const System& system) {
+    const ActiveSet open = system.open_active_set();
+    return Tracer(system, {.state = {.x = Vector::Zero(system.size(open)), .lambda = 0.0, .active_set = open}}, options)
+        .lambda_scale();
+  };
+  if (deck.contact.is_compliant()) return scale_of(*compliant_contact(deck, *held));
+  DeckProblems known(deck.source);
+  return scale_of(MultiplierContact(*held, contact_candidates(deck, *held, {}, known), contact_->scales()));
 }
 
 // Whether the structure resists by itself, where a mechanism was held, more than the springs did.
@@ -304,7 +310,10 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
     return described_if_held(loose_holds_, stiffness_of_ramp_holds() / loose_holds_.stiffness()).builder;
   }();
   if (ramp) ramp_structure_ = of_ramp.build(true);
-  if (!deck_->walls.empty()) {
+  if (deck_->contact.is_compliant() && !deck_->walls.empty()) {
+    compliant_ = compliant_contact(*deck_, *structure_);
+    if (ramp) ramp_compliant_ = compliant_contact(with_walls_of_ramp(*deck_, *structure_), *ramp_structure_);
+  } else if (!deck_->walls.empty()) {
     const auto held = loose_holds_.empty() ? nullptr : held_structure(false);
     const ContactScales scales = contact_scales(*deck_, *structure_, held ? *held : *structure_, deck_->path.step);
     const System& inner = incremental_structure_ ? static_cast<const System&>(*incremental_structure_) : *structure_;
@@ -327,6 +336,14 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
     sliding_ramp_structure_ = sliding_structure(of_ramp, true);
     sliding_ramp_ = on(*sliding_ramp_structure_, with_walls_of_ramp(*deck_, *structure_), stiffness_of_ramp_holds());
   }
+}
+
+std::unique_ptr<CompliantContact> Model::compliant_contact(const deck::Deck& deck, const Structure& structure) const {
+  std::vector<CompliantContact::Wall> walls;
+  for (CompliantWallOfMember& wall : compliant_walls(
+           deck, [&](Index m) -> const MemberMesh& { return structure.members()[static_cast<std::size_t>(m)]; }))
+    walls.push_back(std::move(wall.contact));
+  return std::make_unique<CompliantContact>(structure, std::move(walls), structure_->length_scale());
 }
 
 // The strands of the ramp are those of the path, on which λ may load two members differently that what is constant
@@ -364,16 +381,22 @@ void Model::make_kinks() {
   if (!ramp_structure_) return;
   ramp_body_ = sliding_ramp_ ? body_of(*ramp_structure_, *sliding_ramp_structure_)
                              : body_of(*ramp_structure_, theories_of(*deck_), nullptr);
-  const System* ramp = ramp_structure_.get();
-  if (ramp_contact_) ramp = ramp_contact_.get();
-  if (sliding_ramp_) ramp = sliding_ramp_.get();
-  kinked_ramp_ = on(*ramp, *ramp_body_);
+  kinked_ramp_ = on(*ramp_system(), *ramp_body_);
+}
+
+// What grows while constant loads do, but for the pieces of laws.
+const System* Model::ramp_system() const {
+  if (sliding_ramp_) return sliding_ramp_.get();
+  if (ramp_contact_) return ramp_contact_.get();
+  if (ramp_compliant_) return ramp_compliant_.get();
+  return ramp_structure_.get();
 }
 
 const System& Model::system() const {
   if (kinked_) return *kinked_;
   if (sliding_) return *sliding_;
   if (contact_) return *contact_;
+  if (compliant_) return *compliant_;
   if (incremental_structure_) return *incremental_structure_;
   return *structure_;
 }
@@ -388,8 +411,10 @@ LoadIncrements Model::increments(State start) {
 }
 
 std::optional<State> Model::start(std::string& reason) const {
-  State state{.x = {}, .lambda = 0.0, .active_set = contact_ ? contact_->open_active_set() : ActiveSet()};
+  State state{.x = {}, .lambda = 0.0, .active_set = {}};
+  if (contact_) state.active_set = contact_->open_active_set();
   state.x = Vector::Zero(contact_ ? contact_->size(state.active_set) : structure_->size({}));
+  if (compliant_) state.active_set = compliant_->touched_at(state);
   if (sliding_) state = sliding_->start(deck_->path.step);
   if (!ramp_structure_) return with_kinks(std::move(state));
   // What is constant grows from nothing along a path of their own, contacts included.
@@ -403,12 +428,8 @@ std::optional<State> Model::start(std::string& reason) const {
     options.lambda_scale = lambda_scale_if_held(with_walls_of_ramp(*deck_, *structure_), true);
     options.corner.max_enumerated = 0;
   }
-  const System* ramp = ramp_structure_.get();
-  if (ramp_contact_) ramp = ramp_contact_.get();
-  if (sliding_ramp_) {
-    ramp = sliding_ramp_.get();
-    state = sliding_ramp_->start(1.0);
-  }
+  const System* ramp = ramp_system();
+  if (sliding_ramp_) state = sliding_ramp_->start(1.0);
   if (kinked_ramp_) {
     ramp = kinked_ramp_.get();
     state = kinked_ramp_->with_kinks(std::move(state));
@@ -502,6 +523,7 @@ std::optional<Index> Model::unstable_under_dead_load(const PathPoint& point) con
 
 const ContactQuery* Model::contacts() const {
   if (sliding_) return sliding_.get();
+  if (compliant_) return compliant_.get();
   return contact_.get();
 }
 

@@ -14,6 +14,7 @@
 #include "elements/kinked_springs.hpp"
 #include "elements/sliding_structure.hpp"
 #include "model/body.hpp"
+#include "model/compliant_contact.hpp"
 #include "model/deck/deck.hpp"
 #include "model/loose_bodies.hpp"
 #include "model/stages.hpp"
@@ -78,8 +79,11 @@ class Model {
   }
   const Structure& structure() const { return *structure_; }
 
-  /// Returns the contact of the mesh nodes; null if the deck has no walls.
+  /// Returns the contact of the mesh nodes; null if the deck has no walls, or compliant ones.
   const MultiplierContact* contact() const { return contact_.get(); }
+
+  /// Returns the contact of compliant walls; null if they are not.
+  const CompliantContact* compliant() const { return compliant_.get(); }
 
   /// Returns contact with moving points; null for node contact.
   const SlidingContact* sliding() const { return sliding_.get(); }
@@ -150,6 +154,8 @@ class Model {
   double stiffness_of_ramp_holds() const;
   double lambda_scale_if_held(const deck::Deck& deck, bool ramp) const;
   std::unique_ptr<SlidingStructure> sliding_structure(const StructureBuilder& builder, bool ramp) const;
+  std::unique_ptr<CompliantContact> compliant_contact(const deck::Deck& deck, const Structure& structure) const;
+  const System* ramp_system() const;
   // Also the structure under what is constant alone.
   void make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding);
 
@@ -165,6 +171,7 @@ class Model {
   std::unique_ptr<Structure> structure_, ramp_structure_;
   std::unique_ptr<IncrementalStructure> incremental_structure_;
   std::unique_ptr<MultiplierContact> contact_, ramp_contact_;
+  std::unique_ptr<CompliantContact> compliant_, ramp_compliant_;
   std::unique_ptr<SlidingStructure> sliding_structure_, sliding_ramp_structure_;
   std::unique_ptr<SlidingContact> sliding_, sliding_ramp_;
   std::unique_ptr<Body> body_;

@@ -44,6 +44,7 @@ Vector element_forces(const Structure& structure, Index e, const State& state, b
   if (!loads) return f;
   Vector part(u.size());
   for (const std::uint32_t i : structure.loads_of_element(e)) {
+    if (!structure.element_loads()[i].acts_on(state)) continue;
     structure.element_loads()[i].potential->evaluate_at(u.data(), state.lambda, part.data(), nullptr, nullptr);
     structure.element_loads()[i].potential->complete_end_forces(u.data(), state.lambda, part.data());
     f += part;

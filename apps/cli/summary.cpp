@@ -83,15 +83,34 @@ std::string where_it_is(const deck::Wall& wall) {
   return deck::text_of(deck::side_words, wall.side) + " the structure";
 }
 
+// The smallest gap of a compliant wall, anywhere along members.
+std::string first_gap(const CompliantContact& contact, const std::string& wall, const State& at_rest,
+                      const deck::Deck& deck) {
+  ContactPoint at;
+  double least = infinity;
+  for (Index j = 0; j < contact.contact_count(); ++j) {
+    if (contact.wall(j).name != wall) continue;
+    const double gap = contact.nearest(at_rest, j).gap + 0.0;  // no −0
+    if (gap >= least) continue;
+    least = gap;
+    at = contact.contact(at_rest, j);
+  }
+  if (!std::isfinite(least)) return "no member faces it";
+  return "smallest initial gap " + with_unit(fmt::format("{:.6g}", least), deck.units.length) +
+         fmt::format(" at {}:{:.4g}", at.label.member, at.label.fraction);
+}
+
 void add_walls(const Model& model, Lines& lines) {
   const deck::Deck& deck = model.whole_deck();
   const MultiplierContact* const contact = model.contact();
   const State at_rest{.x = Vector::Zero(model.structure().size({}))};
   auto gaps = contact == nullptr ? std::unordered_map<std::string, FirstGap>() : first_gaps(*contact, at_rest);
+  const auto gap_of = [&](const deck::Wall& wall) -> std::string {
+    if (model.compliant() != nullptr) return "compliant, " + first_gap(*model.compliant(), wall.name, at_rest, deck);
+    return contact == nullptr ? "no member faces it" : text_of(gaps[wall.name], model.sliding() == nullptr, deck);
+  };
   for (const deck::Wall& wall : deck.walls)
-    lines.add("walls", fmt::format("{}: {}, {}", wall.name, where_it_is(wall),
-                                   contact == nullptr ? "no member faces it"
-                                                      : text_of(gaps[wall.name], model.sliding() == nullptr, deck)));
+    lines.add("walls", fmt::format("{}: {}, {}", wall.name, where_it_is(wall), gap_of(wall)));
 }
 
 void add_model(const Model& model, Lines& lines) {
@@ -122,6 +141,8 @@ void add_model(const Model& model, Lines& lines) {
 // Where contact is looked for, and what that means for the loads.
 void add_contact(const deck::Deck& deck, Lines& lines) {
   if (deck.walls.empty()) return;
+  if (deck.contact.is_compliant())
+    return lines.add("contact", "anywhere along the members: walls are compliant, their pressure is integrated");
   const deck::PointsOfContact contact = deck::points_of_contact(deck);
   switch (contact.points) {
     case deck::ContactPoints::moving:

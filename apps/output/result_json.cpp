@@ -30,10 +30,12 @@ namespace {
 constexpr int schema_version = 1;
 
 OrderedJson model_sizes(const Model& model) {
-  const MultiplierContact* contact = model.contact();
+  Index candidates = 0;
+  if (model.contact() != nullptr) candidates = model.contact()->contact_count();
+  if (model.compliant() != nullptr) candidates = model.compliant()->contact_count();
   return {{"nodes", model.structure().node_count()},
           {"unknowns", model.structure().size({})},
-          {"contact_candidates", contact == nullptr ? Index{0} : contact->contact_count()}};
+          {"contact_candidates", candidates}};
 }
 
 OrderedJson counts(const Record& record) {

@@ -123,16 +123,33 @@ bool is_contact_event(const ListedEvent& event) {
   return event.kind.starts_with("contact") && event.kind != "contact-limit-point";
 }
 
-// How contacts are told apart: those of nodes by their place, those that slide by their wall, with how many there are.
+// How contacts are told apart: those of nodes by their place, those that slide by their wall, with how many there are,
+// those of compliant walls by wall and member.
+enum class Contacting { at_nodes, sliding, compliant };
 using Contacts = std::map<std::string, Index>;
 
-std::string name_of(const ContactLabel& label, bool slides) {
-  return slides ? label.wall : label.wall + " at " + label.member + ":" + round_trip(label.fraction);
+Contacting contacting(const Model& model) {
+  if (model.compliant() != nullptr) return Contacting::compliant;
+  return model.sliding() != nullptr ? Contacting::sliding : Contacting::at_nodes;
 }
 
-Contacts contacts_of(const RecordPoint& point, bool slides) {
+std::string name_of(const ContactLabel& label, Contacting how) {
+  switch (how) {
+    case Contacting::at_nodes:
+      return label.wall + " at " + label.member + ":" + round_trip(label.fraction);
+    case Contacting::sliding:
+      return label.wall;
+    case Contacting::compliant:
+      return label.wall + " at " + label.member;
+  }
+  return {};
+}
+
+Contacts contacts_of(const RecordPoint& point, Contacting how) {
   Contacts contacts;
-  for (const RecordForce& force : point.forces) ++contacts[name_of(force.label, slides)];
+  for (const RecordForce& force : point.forces) ++contacts[name_of(force.label, how)];
+  if (how == Contacting::compliant)
+    for (auto& [name, count] : contacts) count = 1;
   return contacts;
 }
 
@@ -147,15 +164,15 @@ std::set<std::string> changed(const Contacts& from, const Contacts& to) {
   return names;
 }
 
-bool names(const ListedEvent& event, const std::string& contact, bool slides) {
+bool names(const ListedEvent& event, const std::string& contact, Contacting how) {
   return is_contact_event(event) &&
          std::any_of(event.contacts.begin(), event.contacts.end(),
-                     [&](const ContactLabel& label) { return name_of(label, slides) == contact; });
+                     [&](const ContactLabel& label) { return name_of(label, how) == contact; });
 }
 
 // A branch may leave its first point, where it begins on another, by a change of contact; and the stretch that a change
 // makes may be there later only.
-void check_contact_changes(const Branch& branch, bool slides, Findings& findings) {
+void check_contact_changes(const Branch& branch, Contacting how, Findings& findings) {
   const auto makes_stretch = [&](Index step) {
     return branch.has_event(step, step, [](const ListedEvent& event) {
       return event.kind == "contact-spreads" || event.kind == "contact-splits" || event.kind == "contact-opens";
@@ -164,12 +181,13 @@ void check_contact_changes(const Branch& branch, bool slides, Findings& findings
   for (std::size_t i = 0; i + 1 < branch.points.size(); ++i) {
     const RecordPoint &from = branch.points[i], &to = branch.points[i + 1];
     if (branch.id > 0 && from.step == 0) continue;
-    const RecordPoint& since = slides ? branch.points[change_before(branch.points, i, makes_stretch)] : from;
+    const RecordPoint& since =
+        how == Contacting::sliding ? branch.points[change_before(branch.points, i, makes_stretch)] : from;
     findings.at("events.json", branch.id, to.step);
-    for (const std::string& name : changed(contacts_of(from, slides), contacts_of(to, slides)))
+    for (const std::string& name : changed(contacts_of(from, how), contacts_of(to, how)))
       findings.require(
           complete,
-          branch.has_event(since.step, to.step, [&](const ListedEvent& event) { return names(event, name, slides); }),
+          branch.has_event(since.step, to.step, [&](const ListedEvent& event) { return names(event, name, how); }),
           fmt::format("the contacts with {} change between steps {} and {} without an event", name, from.step,
                       to.step));
   }
@@ -349,7 +367,7 @@ void check_completeness(const std::vector<ListedEvent>& events, const Record& re
     if (model.deck().path.events != EventSearch::none) check_counts(branch, findings);
     check_switch(branch, record, findings);
     check_jump(branch, record, findings);
-    check_contact_changes(branch, model.sliding() != nullptr, findings);
+    check_contact_changes(branch, contacting(model), findings);
     check_turning_points(branch, record, here, findings);
     if (!here.in_increments()) check_passed_values(branch, record, here, findings);
     check_bounds(branch, record, here, findings);

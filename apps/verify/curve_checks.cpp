@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/output/curve_files.hpp"
+#include "apps/verify/compliant_walls.hpp"
 #include "apps/verify/copies.hpp"
 #include "apps/verify/counts.hpp"
 #include "apps/verify/point_checks.hpp"
@@ -88,8 +89,10 @@ class CurveVerifier {
     const PointAtHand at = at_hand(model, as_of_run, walls, scales);
     check_contacts(at, findings);
     check_equilibrium(at, findings);
-    const Index closed = std::count_if(at.touches.all.begin(), at.touches.all.end(),
-                                       [](const Touch& touch) { return touch.closed && touch.listed; });
+    check_compliant_walls(model, at.walls, state, findings);
+    Index closed = std::count_if(at.touches.all.begin(), at.touches.all.end(),
+                                 [](const Touch& touch) { return touch.closed && touch.listed; });
+    if (model.compliant() != nullptr) closed = model.closed_contacts(state);
     findings.require("curve.csv matches the states", closed == point.contacts, "contacts");
     findings.compare("curve.csv matches the states", std::abs(point.lambda - state.lambda), 0.0, "lambda");
     for (std::size_t k = 0; k < curve_.columns.size(); ++k) {

@@ -148,7 +148,7 @@ Potential fixed_potential(const Structure& structure, Index e, const State& stat
   const auto n = static_cast<Index>(dofs.size());
   LoadedElement loaded{.element = &structure.element(e), .loads = {}, .lambda = state.lambda};
   for (const std::uint32_t i : structure.loads_of_element(e))
-    loaded.loads.push_back(structure.element_loads()[i].potential.get());
+    if (!structure.element_loads()[i].wall) loaded.loads.push_back(structure.element_loads()[i].potential.get());
   Potential potential{.at = Vector(n), .steps = Vector(n), .rates = Vector::Zero(n)};
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const auto local = static_cast<Index>(i);
@@ -177,6 +177,50 @@ std::vector<Potential> fixed_potentials(const Model& model, const State& state) 
     }
   }
   return all;
+}
+
+// The pressure of a compliant wall on an element. Its energy has kinks in its derivatives where edges of contact pass,
+// over which differences are wrong: see check_compliant_walls().
+Potential wall_potential(const Structure& structure, const Structure::ElementLoad& load, const State& state,
+                         std::size_t stride, double length, const Rates& rates) {
+  const auto dofs = structure.element_dofs(load.element);
+  const auto n = static_cast<Index>(dofs.size());
+  Potential potential{.at = Vector(n), .steps = Vector(n), .rates = Vector::Zero(n)};
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const auto local = static_cast<Index>(i);
+    potential.rates[local] = rate_of(rates, dofs[i]);
+    potential.unknowns.push_back(structure.unknown(dofs[i]).value_or(-1));
+    potential.at[local] = structure.value(state, dofs[i]);
+    potential.steps[local] = step_of(kind_of(i, stride), length);
+  }
+  const Element* const wall = load.potential.get();
+  const double lambda = state.lambda;
+  potential.energy = [=](const Vector& u) { return wall->evaluate_at(u.data(), lambda, nullptr, nullptr, nullptr); };
+  potential.gradient = [=](const Vector& u) {
+    Vector f(u.size());
+    wall->evaluate_at(u.data(), lambda, f.data(), nullptr, nullptr);
+    return f;
+  };
+  potential.curvature = [=](const Vector& u) {
+    Vector f(u.size());
+    Matrix K(u.size(), u.size());
+    wall->evaluate_at(u.data(), lambda, f.data(), K.data(), nullptr);
+    return Matrix(K.selfadjointView<Eigen::Lower>());
+  };
+  return potential;
+}
+
+void add_compliant_walls(const Model& model, const State& state, std::vector<Potential>& to) {
+  const Structure& structure = model.structure();
+  const std::vector<double> lengths = element_lengths(structure);
+  const Rates rates = rates_of_supports(structure);
+  for (const Structure::ElementLoad& load : structure.element_loads()) {
+    if (!load.wall || !load.acts_on(state)) continue;
+    const CompliantContact::Wall& wall = model.compliant()->wall(static_cast<Index>(*load.wall));
+    const std::size_t stride = unknowns_a_node(structure.members()[static_cast<std::size_t>(wall.member)]);
+    to.push_back(
+        wall_potential(structure, load, state, stride, lengths[static_cast<std::size_t>(load.element)], rates));
+  }
 }
 
 // --- nodes that slide -----------------------------------------------------------------------------------------------
@@ -505,6 +549,7 @@ double table_slope(const deck::TableLaw& law, double stretch) { return table_for
 std::vector<Potential> potentials(const Model& model, const State& state) {
   std::vector<Potential> all =
       model.sliding() != nullptr ? sliding_potentials(model, state) : fixed_potentials(model, state);
+  add_compliant_walls(model, state, all);
   add_springs(model, state, all);
   add_pressed_ends(model, state, all);
   return all;

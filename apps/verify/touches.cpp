@@ -60,6 +60,7 @@ void take_outline(const PlainWall& wall, const std::function<Vec2(const Vector&)
 
 Touches touches(const Model& model, const std::vector<PlainWall>& walls, const State& state) {
   if (model.sliding() != nullptr) return sliding_touches(model, walls, state);
+  if (model.compliant() != nullptr) return {.of_compliant_walls = model.compliant()->closed_contacts(state)};
   return model.contact() != nullptr ? node_touches(model, walls, state) : Touches{};
 }
 

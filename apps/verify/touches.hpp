@@ -86,6 +86,7 @@ struct Pinched {
 
 struct Touches {
   std::vector<Touch> all{};
+  std::vector<ContactPoint> of_compliant_walls{};  ///< edges of pressed parts, and what elements bear between
   std::vector<Tangency> tangencies{};
   std::vector<Pinched> pinched{};
 };

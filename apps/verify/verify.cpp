@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/output/text_table.hpp"
+#include "apps/verify/compliant_walls.hpp"
 #include "apps/verify/counts.hpp"
 #include "apps/verify/energy_balance.hpp"
 #include "apps/verify/passages.hpp"
@@ -220,11 +221,13 @@ class Verifier {
     if (!well_formed) return false;
     const PointAtHand at = at_hand(model, point, walls_[static_cast<std::size_t>(stage)], scales_);
     PathExpectation expected{.contacts = listed_contacts(at.touches), .moves_supports = record_.moves_supports};
+    if (model.compliant() != nullptr) expected.contacts = model.closed_contacts(point.state);
     if (record_.has_friction) expected.slipping = slipping_contacts(at.touches);
     add_monitors(at, expected, findings);
     if (!record_.stages.empty()) expected.stage = record_.stage_of(point.branch);
     if (!model_.in_increments()) {
       check_contacts(at, findings, waits_for_stretch(number));
+      check_compliant_walls(model, at.walls, point.state, findings);
       check_equilibrium(at, findings);
       check_point_loads(at, findings);
       expected.energy = energy(at);

@@ -112,6 +112,12 @@ std::vector<PolylineOutline::Corner> PolylineOutline::corners() const {
   return corners;
 }
 
+PressureLaw WallLaw::law() const {
+  if (stiffness) return PressureLaw(*stiffness, depth);
+  return {std::make_shared<const SpringLaw>(penetration, pressure, interpolation),
+          {penetration.begin() + 1, penetration.end()}};
+}
+
 std::vector<double> Wall::radii() const {
   const auto& line = std::get<PolylineOutline>(*outline);
   std::vector<double> radii(line.x.size(), 0.0);
@@ -333,6 +339,8 @@ std::string why_tapers_hold_contact(const Deck& deck) {
 
 PointsOfContact points_of_contact(const Deck& deck) {
   if (deck.contact.points) return {.points = *deck.contact.points, .why = "as contact.points says"};
+  if (deck.contact.is_compliant())
+    return {.points = ContactPoints::nodes, .why = "walls are compliant: their pressure is integrated along members"};
   if (deck.contact.method != ContactLaw::Method::rigid)
     return {.points = ContactPoints::nodes,
             .why = "method " + text_of(contact_method_words, deck.contact.method) + " puts springs at nodes"};

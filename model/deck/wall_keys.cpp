@@ -79,6 +79,54 @@ void motion_keys(Keys& keys, WallMotion& motion) {
       "moves along");
 }
 
+// The points of a table, of which each message names one key.
+void check_table(Keys& keys, const WallLaw& law) {
+  const std::vector<double>&p = law.penetration, &w = law.pressure;
+  if (p.size() != w.size() || p.size() < 2)
+    return keys.report(
+        "pressure",
+        "the law has " + std::to_string(p.size()) + " penetrations and " + std::to_string(w.size()) + " pressures",
+        "give as many of both, at least 2");
+  if (p.front() != 0.0 || w.front() != 0.0)
+    return keys.report("penetration", "the law does not begin without pressure at penetration 0",
+                       "let the first of both be 0");
+  // Between such points the stiffness is a quotient of what is lost in the digits of the whole.
+  constexpr double least_step = 1e-9;
+  for (std::size_t i = 1; i < p.size(); ++i)
+    if (!(p[i] - p[i - 1] > least_step * p.back()))
+      return keys.report("penetration", round_trip(p[i]) + " follows " + round_trip(p[i - 1]),
+                         "order the penetrations, each once to 9 digits of the last");
+  if (std::any_of(w.begin(), w.end(), [](double pressure) { return pressure < 0.0; }))
+    return keys.report("pressure", "a pressure is negative: walls push only", "give pressures of 0 or more");
+  if (std::all_of(w.begin(), w.end(), [](double pressure) { return pressure == 0.0; }))
+    keys.report("pressure", "the wall has no pressure", "give pressures greater than 0");
+}
+
+void law_keys(Keys& keys, WallLaw& law, std::string_view otherwise) {
+  keys.table(
+      optional("law", otherwise), Form::in_line,
+      [&](Keys& of) {
+        const bool has_table =
+            of.reads() ? of.has("penetration") || of.has("pressure") : of.lists() || !law.penetration.empty();
+        if (of.reads() && has_table == of.has("stiffness")) {
+          of.report("stiffness", has_table ? "the law has both a stiffness and a table" : "the law has no stiffness",
+                    "give `stiffness`, or `penetration` and `pressure`");
+          return of.give_up();
+        }
+        if (!has_table || of.lists()) of.number("stiffness", law.stiffness, unit::stress, positive, "");
+        if (of.applies(!has_table || of.lists(), "depth", "belongs to a law with a stiffness", "remove it"))
+          of.number(optional("depth"), law.depth, unit::length, positive, "");
+        if (!of.applies(has_table, "interpolation", "belongs to a table of penetrations and pressures", "remove it"))
+          return;
+        const bool penetration = of.numbers("penetration", law.penetration, unit::length, "");
+        const bool pressure = of.numbers("pressure", law.pressure, unit::line_load, "");
+        of.word(optional("interpolation", "linear"), law.interpolation, interpolation_words, "");
+        if (of.reads() && penetration && pressure) check_table(of, law);
+      },
+      "of `\"compliant\"`: `stiffness`, optional `depth`; or `penetration` and `pressure`, optional `interpolation` "
+      "([how-to](../how-to/compliant-walls.md))");
+}
+
 void check_faces(Keys& keys, const Deck& deck, const Wall& wall) {
   std::vector<const Member*> members;
   for (const Member& member : deck.members) {
@@ -114,6 +162,7 @@ void wall_keys(Keys& keys, Wall& wall, std::unordered_set<std::string>& taken, c
               "loads are applied");
   keys.number(optional("friction"), wall.friction, unit::none, coefficient_of_friction,
               "coefficient μ of Coulomb friction: a contact sticks up to a friction force μ p, and slips at it");
+  keys.part("law", wall.law, [&](WallLaw& law) { law_keys(keys, law, "`contact.law`"); });
   keys.part("motion", wall.motion, [&](WallMotion& motion) { motion_keys(keys, motion); });
   check_faces(keys, deck, wall);
 }
@@ -149,10 +198,26 @@ void friction_keys(Keys& keys, const Deck& deck, FrictionPair& pair) {
   check_part(keys, "point", "end of a member", pair.point, ends);
 }
 
+// Which walls need a law, and what does not go with one.
+void check_law(Keys& keys, const Deck& deck, const Contact& contact) {
+  if (!contact.is_compliant()) {
+    keys.applies(false, "law", "belongs to method \"compliant\"", "write method = \"compliant\", or remove it");
+    return;
+  }
+  for (const char* key : {"points", "penalty", "gap_tolerance", "friction_at"})
+    keys.applies(false, key, "does not go with method \"compliant\", whose pressure is integrated along members",
+                 "remove it");
+  const auto has_none = [](const Wall& wall) { return !wall.law; };
+  const auto without = std::find_if(deck.walls.begin(), deck.walls.end(), has_none);
+  if (without != deck.walls.end() && !contact.law)
+    keys.report("law", "is missing: wall " + in_quotes(without->name) + " has no law of its own",
+                "add law = { stiffness = … }, the pressure by penetration");
+}
+
 void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
   keys.word(optional("method"), contact.method, contact_method_words,
             "`\"multiplier\"`: exact; `\"penalty\"`: springs of stiffness `penalty` in compression; `\"augmented\"`: "
-            "exact, multiplier plus spring");
+            "exact, multiplier plus spring; `\"compliant\"`: pressure by `law`");
   keys.word(optional("points", "by theory"), contact.points, contact_points_words,
             "`\"moving\"`: positions of contact points are unknowns; `\"nodes\"`: contact at mesh nodes only");
   // A default that depends on other keys is a comment: who reads the deck sees it, and it goes with the keys.
@@ -166,7 +231,11 @@ void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
               "force per length of axis and of penetration; > 0, required by `\"penalty\"` and `\"augmented\"`");
   keys.number(optional("gap_tolerance"), contact.gap_tolerance, unit::length, positive,
               "of `\"augmented\"`: bound on gaps of closed contacts");
-  if (contact.method != ContactLaw::Method::rigid && !keys.has("penalty"))
+  keys.part("law", contact.law, [&](WallLaw& law) { law_keys(keys, law, "none"); });
+  if (keys.reads()) check_law(keys, deck, contact);
+  const bool has_springs =
+      contact.method == ContactLaw::Method::penalty || contact.method == ContactLaw::Method::augmented;
+  if (has_springs && !keys.has("penalty"))
     keys.report("penalty", "is missing: method " + text_of(contact_method_words, contact.method) + " needs it",
                 "add penalty, a number greater than 0");
 }

@@ -131,6 +131,20 @@ struct WallMotion {
   bool operator==(const WallMotion&) const = default;
 };
 
+/// The pressure of a compliant wall by its penetration: one number, two or a table.
+struct WallLaw {
+  using Interpolation = SpringLaw::Interpolation;
+  std::optional<double> stiffness{};  ///< at the touch [force/length²]
+  std::optional<double> depth{};      ///< over which it grows by e; empty: constant [length]
+  std::vector<double> penetration{};  ///< increasing from 0 [length]
+  std::vector<double> pressure{};     ///< as many, ≥ 0, from 0 [force/length]
+  Interpolation interpolation = SpringLaw::Interpolation::linear;  ///< of the table
+
+  PressureLaw law() const;
+
+  bool operator==(const WallLaw&) const = default;
+};
+
 struct Wall {
   std::string name{};
   Position position{};
@@ -143,7 +157,8 @@ struct Wall {
   std::vector<double> corner_radii{};  ///< of each corner in turn [length]; empty: corner_radius
   double interference = 0.0;           ///< so far it begins moved back from the structure [length]
   std::optional<WallMotion> motion{};
-  double friction = 0.0;  ///< coefficient μ of Coulomb friction ≥ 0 [-]
+  double friction = 0.0;         ///< coefficient μ of Coulomb friction ≥ 0 [-]
+  std::optional<WallLaw> law{};  ///< of a compliant wall; empty: that of all walls
 
   /// Of a polyline: the radius at each of its points, 0 at the ends of an open one.
   std::vector<double> radii() const;
@@ -170,9 +185,12 @@ enum class FrictionAt { touch, axis };
 struct Contact {
   ContactLaw::Method method = ContactLaw::Method::rigid;
   std::optional<ContactPoints> points{};  ///< empty: moving for euler-bernoulli and elastica, else nodes
-  std::optional<double> penalty{};        ///< 1/μ, there for every method that needs it [force/length²]
+  std::optional<double> penalty{};        ///< 1/μ, there for `penalty` and `augmented` [force/length²]
   double gap_tolerance = 1e-10;           ///< [length]
   FrictionAt friction_at = FrictionAt::touch;
+  std::optional<WallLaw> law{};  ///< of compliant walls without their own
+
+  bool is_compliant() const { return method == ContactLaw::Method::compliant; }
 
   bool operator==(const Contact&) const = default;
 };

@@ -72,9 +72,10 @@ inline constexpr Words<Side, 2> side_words{{{"above", Side::above}, {"below", Si
 inline constexpr Words<Keep, 2> keep_words{{{"outside", Keep::outside}, {"inside", Keep::inside}}};
 inline constexpr Words<ContactSurface, 2> contact_surface_words{
     {{"face", ContactSurface::face}, {"axis", ContactSurface::axis}}};
-inline constexpr Words<ContactLaw::Method, 3> contact_method_words{{{"multiplier", ContactLaw::Method::rigid},
+inline constexpr Words<ContactLaw::Method, 4> contact_method_words{{{"multiplier", ContactLaw::Method::rigid},
                                                                     {"penalty", ContactLaw::Method::penalty},
-                                                                    {"augmented", ContactLaw::Method::augmented}}};
+                                                                    {"augmented", ContactLaw::Method::augmented},
+                                                                    {"compliant", ContactLaw::Method::compliant}}};
 inline constexpr Words<ContactPoints, 2> contact_points_words{
     {{"nodes", ContactPoints::nodes}, {"moving", ContactPoints::moving}}};
 inline constexpr Words<FrictionAt, 2> friction_at_words{{{"touch", FrictionAt::touch}, {"axis", FrictionAt::axis}}};
