@@ -3,9 +3,9 @@
 #include <tuple>
 #include <utility>
 
-#include "core/gauss_points.hpp"
 #include "contact/outline.hpp"
 #include "core/cubic_spline.hpp"
+#include "core/gauss_points.hpp"
 
 namespace arcwall {
 

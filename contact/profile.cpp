@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gauss_points.hpp"
 #include "core/cubic_spline.hpp"
+#include "core/gauss_points.hpp"
 
 namespace arcwall {
 
