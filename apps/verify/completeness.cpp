@@ -145,11 +145,17 @@ std::string name_of(const ContactLabel& label, Contacting how) {
   return {};
 }
 
-Contacts contacts_of(const RecordPoint& point, Contacting how) {
+// Compliant walls may be touched without a force.
+Contacts contacts_of(const RecordPoint& point, const Model& model) {
   Contacts contacts;
-  for (const RecordForce& force : point.forces) ++contacts[name_of(force.label, how)];
-  if (how == Contacting::compliant)
-    for (auto& [name, count] : contacts) count = 1;
+  const Contacting how = contacting(model);
+  if (how != Contacting::compliant) {
+    for (const RecordForce& force : point.forces) ++contacts[name_of(force.label, how)];
+    return contacts;
+  }
+  for (std::size_t j = 0; j < point.state.active_set.contacts(); ++j)
+    if (point.state.active_set[j] != 0)
+      ++contacts[name_of(model.compliant()->contact(point.state, static_cast<Index>(j)).label, how)];
   return contacts;
 }
 
@@ -172,7 +178,8 @@ bool names(const ListedEvent& event, const std::string& contact, Contacting how)
 
 // A branch may leave its first point, where it begins on another, by a change of contact; and the stretch that a change
 // makes may be there later only.
-void check_contact_changes(const Branch& branch, Contacting how, Findings& findings) {
+void check_contact_changes(const Branch& branch, const Model& model, Findings& findings) {
+  const Contacting how = contacting(model);
   const auto makes_stretch = [&](Index step) {
     return branch.has_event(step, step, [](const ListedEvent& event) {
       return event.kind == "contact-spreads" || event.kind == "contact-splits" || event.kind == "contact-opens";
@@ -184,7 +191,7 @@ void check_contact_changes(const Branch& branch, Contacting how, Findings& findi
     const RecordPoint& since =
         how == Contacting::sliding ? branch.points[change_before(branch.points, i, makes_stretch)] : from;
     findings.at("events.json", branch.id, to.step);
-    for (const std::string& name : changed(contacts_of(from, how), contacts_of(to, how)))
+    for (const std::string& name : changed(contacts_of(from, model), contacts_of(to, model)))
       findings.require(
           complete,
           branch.has_event(since.step, to.step, [&](const ListedEvent& event) { return names(event, name, how); }),
@@ -367,7 +374,7 @@ void check_completeness(const std::vector<ListedEvent>& events, const Record& re
     if (model.deck().path.events != EventSearch::none) check_counts(branch, findings);
     check_switch(branch, record, findings);
     check_jump(branch, record, findings);
-    check_contact_changes(branch, contacting(model), findings);
+    check_contact_changes(branch, here, findings);
     check_turning_points(branch, record, here, findings);
     if (!here.in_increments()) check_passed_values(branch, record, here, findings);
     check_bounds(branch, record, here, findings);

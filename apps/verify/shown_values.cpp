@@ -145,6 +145,17 @@ Vec2 uncertainty_of_jump(const PointAtHand& at) {
   return 2.0 * most;
 }
 
+// Whether a compliant wall may press a member between two places: what it lists are edges and middles of elements.
+bool may_press_between(const Touches& touches, const std::string& member, double from, double to) {
+  bool before = false, behind = false;
+  for (const ContactPoint& contact : touches.of_compliant_walls) {
+    if (contact.label.member != member) continue;
+    before = before || contact.label.fraction <= to;
+    behind = behind || contact.label.fraction >= from;
+  }
+  return before && behind;
+}
+
 // A contact between two places of a member, or on both sides of them with one wall, which may be one zone.
 bool may_touch_between(const Touches& touches, const std::string& member, double from, double to) {
   std::set<std::string> before, behind;
@@ -180,8 +191,12 @@ void check_point_loads(const PointAtHand& at, Findings& findings) {
     const auto before = std::find_if(shape.rbegin(), shape.rend(),
                                      [&](const ShapePoint& one) { return one.fraction < fraction - same_place; });
     if (behind == shape.end() || before == shape.rend()) continue;
-    if (may_touch_between(at.touches, place.name, before->fraction - same_place, behind->fraction + same_place))
-      continue;
+    const double first = before->fraction - same_place, last = behind->fraction + same_place;
+    if (may_touch_between(at.touches, place.name, first, last)) continue;
+    // An element tells its section forces by those at its ends, wherever it is pressed.
+    const double element =
+        1.0 / double(model.structure().members()[index_of_member(model, place.name)].nodes.size() - 1);
+    if (may_press_between(at.touches, place.name, first - element, last + element)) continue;
     double most = sum.norm();
     for (const ShapePoint& one : shape) most = std::max(most, section_force(one).norm());
     const Vec2 off = section_force(*before) - section_force(*behind) - sum;

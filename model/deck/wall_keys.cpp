@@ -123,8 +123,7 @@ void law_keys(Keys& keys, WallLaw& law, std::string_view otherwise) {
         of.word(optional("interpolation", "linear"), law.interpolation, interpolation_words, "");
         if (of.reads() && penetration && pressure) check_table(of, law);
       },
-      "of `\"compliant\"`: `stiffness`, optional `depth`; or `penetration` and `pressure`, optional `interpolation` "
-      "([how-to](../how-to/compliant-walls.md))");
+      "of method `\"compliant\"`: pressure by penetration");
 }
 
 void check_faces(Keys& keys, const Deck& deck, const Wall& wall) {
@@ -198,15 +197,7 @@ void friction_keys(Keys& keys, const Deck& deck, FrictionPair& pair) {
   check_part(keys, "point", "end of a member", pair.point, ends);
 }
 
-// Which walls need a law, and what does not go with one.
 void check_law(Keys& keys, const Deck& deck, const Contact& contact) {
-  if (!contact.is_compliant()) {
-    keys.applies(false, "law", "belongs to method \"compliant\"", "write method = \"compliant\", or remove it");
-    return;
-  }
-  for (const char* key : {"points", "penalty", "gap_tolerance", "friction_at"})
-    keys.applies(false, key, "does not go with method \"compliant\", whose pressure is integrated along members",
-                 "remove it");
   const auto has_none = [](const Wall& wall) { return !wall.law; };
   const auto without = std::find_if(deck.walls.begin(), deck.walls.end(), has_none);
   if (without != deck.walls.end() && !contact.law)
@@ -214,10 +205,7 @@ void check_law(Keys& keys, const Deck& deck, const Contact& contact) {
                 "add law = { stiffness = … }, the pressure by penetration");
 }
 
-void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
-  keys.word(optional("method"), contact.method, contact_method_words,
-            "`\"multiplier\"`: exact; `\"penalty\"`: springs of stiffness `penalty` in compression; `\"augmented\"`: "
-            "exact, multiplier plus spring; `\"compliant\"`: pressure by `law`");
+void rigid_contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
   keys.word(optional("points", "by theory"), contact.points, contact_points_words,
             "`\"moving\"`: positions of contact points are unknowns; `\"nodes\"`: contact at mesh nodes only");
   // A default that depends on other keys is a comment: who reads the deck sees it, and it goes with the keys.
@@ -231,13 +219,26 @@ void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
               "force per length of axis and of penetration; > 0, required by `\"penalty\"` and `\"augmented\"`");
   keys.number(optional("gap_tolerance"), contact.gap_tolerance, unit::length, positive,
               "of `\"augmented\"`: bound on gaps of closed contacts");
-  keys.part("law", contact.law, [&](WallLaw& law) { law_keys(keys, law, "none"); });
-  if (keys.reads()) check_law(keys, deck, contact);
   const bool has_springs =
       contact.method == ContactLaw::Method::penalty || contact.method == ContactLaw::Method::augmented;
   if (has_springs && !keys.has("penalty"))
     keys.report("penalty", "is missing: method " + text_of(contact_method_words, contact.method) + " needs it",
                 "add penalty, a number greater than 0");
+}
+
+void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
+  keys.word(optional("method"), contact.method, contact_method_words,
+            "`\"multiplier\"`: exact; `\"penalty\"`: springs of stiffness `penalty` in compression; `\"augmented\"`: "
+            "exact, multiplier plus spring; `\"compliant\"`: pressure by `law`");
+  const bool compliant = contact.is_compliant();
+  if (!compliant) rigid_contact_keys(keys, deck, contact);
+  for (const char* key : {"points", "friction_at", "penalty", "gap_tolerance"})
+    keys.applies(!compliant, key, "does not go with method \"compliant\", whose pressure is integrated along members",
+                 "remove it");
+  if (keys.applies(compliant || keys.lists(), "law", "belongs to method \"compliant\"",
+                   "write method = \"compliant\", or remove it"))
+    keys.part("law", contact.law, [&](WallLaw& law) { law_keys(keys, law, "none"); });
+  if (keys.reads() && compliant) check_law(keys, deck, contact);
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 
 #include "core/derivative_check.hpp"
 #include "core/error.hpp"
+#include "model/deck/reader.hpp"
+#include "model/deck/writer.hpp"
 #include "tests/model/traced_session.hpp"
 #include "tests/support/dense.hpp"
 
@@ -636,6 +638,35 @@ TEST(CompliantWalls, RefuseWhatTheyAreNot) {
       "}\n[contact]",
       "touches walls \"lid\" and \"base\" from both sides at the start");
   expect_said("wall = \"bed\"\ncomponent", "wall = \"bed\"\nat = \"left\"\ncomponent", "it has no force at \"left\"");
+}
+
+// A run may write its deck, with other values, and read it again.
+TEST(CompliantWalls, AreReadAsTheyAreWritten) {
+  for (const std::string law :
+       {"{ stiffness = 1e5 }", "{ stiffness = 1e5, depth = 0.5 }",
+        "{ penetration = [0.0, 1.0, 2.0], pressure = [0.0, 1.0, 3.0], interpolation = \"smooth\" }"}) {
+    std::string text = beam_over_bed("\"euler-bernoulli\"", 4, 1.0);
+    text.replace(text.find("{ stiffness = 1e5 }"), 19, law);
+    text.insert(text.find("[contact]"), "law = " + law + "\n");
+    const deck::Deck deck = deck::read_deck_text(text, "deck.toml");
+    const deck::Deck again = deck::read_deck_text(deck::to_toml(deck), "deck.toml");
+    EXPECT_EQ(deck.contact, again.contact);
+    EXPECT_EQ(deck.walls.front().law, again.walls.front().law);
+  }
+}
+
+// The rate of a snap by the stiffness against runs beside.
+TEST(CompliantWalls, KnowHowLoadsDependOnTheirStiffness) {
+  const std::string deck = column_in_channel("\"elastica\"", 24, 500.0);
+  const auto snap = [&](const std::string& stiffness) {
+    return event_of(record(traced(deck, {"contact.law.stiffness=" + stiffness})), EventKind::limit_point).lambda;
+  };
+  const Session run = traced(deck, {"path.sensitivity=[\"contact.law.stiffness\"]"});
+  const RecordEvent& event = event_of(record(run), EventKind::limit_point);
+  ASSERT_EQ(event.sensitivity.size(), 1U);
+  ASSERT_TRUE(event.sensitivity.front().slope) << event.sensitivity.front().why_none;
+  const double rate = *event.sensitivity.front().slope;
+  EXPECT_NEAR(rate, (snap("501") - snap("499")) / 2.0, 1e-4 * std::abs(rate));
 }
 
 // A wall of its own law, and laws of walls that are rigid.
