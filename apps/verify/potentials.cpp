@@ -142,13 +142,11 @@ struct ElementSize {
   double part() const { return std::min(1.0, bends_over / length); }
 };
 
-Potential fixed_potential(const Structure& structure, Index e, const State& state, std::size_t stride,
-                          const ElementSize& size, const Rates& rates) {
+// The unknowns of an element, their values and steps; what it is a potential of is left out.
+Potential on_element(const Structure& structure, Index e, const State& state, std::size_t stride,
+                     const ElementSize& size, const Rates& rates) {
   const auto dofs = structure.element_dofs(e);
   const auto n = static_cast<Index>(dofs.size());
-  LoadedElement loaded{.element = &structure.element(e), .loads = {}, .lambda = state.lambda};
-  for (const std::uint32_t i : structure.loads_of_element(e))
-    if (!structure.element_loads()[i].wall) loaded.loads.push_back(structure.element_loads()[i].potential.get());
   Potential potential{.at = Vector(n), .steps = Vector(n), .rates = Vector::Zero(n)};
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const auto local = static_cast<Index>(i);
@@ -157,6 +155,15 @@ Potential fixed_potential(const Structure& structure, Index e, const State& stat
     potential.at[local] = structure.value(state, dofs[i]);
     potential.steps[local] = size.part() * step_of(kind_of(i, stride), size.length);
   }
+  return potential;
+}
+
+Potential fixed_potential(const Structure& structure, Index e, const State& state, std::size_t stride,
+                          const ElementSize& size, const Rates& rates) {
+  LoadedElement loaded{.element = &structure.element(e), .loads = {}, .lambda = state.lambda};
+  for (const std::uint32_t i : structure.loads_of_element(e))
+    if (!structure.element_loads()[i].wall) loaded.loads.push_back(structure.element_loads()[i].potential.get());
+  Potential potential = on_element(structure, e, state, stride, size, rates);
   potential.energy = [loaded](const Vector& u) { return loaded.energy(u); };
   potential.gradient = [loaded](const Vector& u) { return loaded.gradient(u); };
   limit_steps(size.length, stride, potential);
@@ -183,16 +190,7 @@ std::vector<Potential> fixed_potentials(const Model& model, const State& state) 
 // over which differences are wrong: see check_compliant_walls().
 Potential wall_potential(const Structure& structure, const Structure::ElementLoad& load, const State& state,
                          std::size_t stride, double length, const Rates& rates) {
-  const auto dofs = structure.element_dofs(load.element);
-  const auto n = static_cast<Index>(dofs.size());
-  Potential potential{.at = Vector(n), .steps = Vector(n), .rates = Vector::Zero(n)};
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    const auto local = static_cast<Index>(i);
-    potential.rates[local] = rate_of(rates, dofs[i]);
-    potential.unknowns.push_back(structure.unknown(dofs[i]).value_or(-1));
-    potential.at[local] = structure.value(state, dofs[i]);
-    potential.steps[local] = step_of(kind_of(i, stride), length);
-  }
+  Potential potential = on_element(structure, load.element, state, stride, {.length = length}, rates);
   const Element* const wall = load.potential.get();
   const double lambda = state.lambda;
   potential.energy = [=](const Vector& u) { return wall->evaluate_at(u.data(), lambda, nullptr, nullptr, nullptr); };
