@@ -126,6 +126,9 @@ class CurveVerifier {
     for (const Touch& touch : at.touches.all)
       least = std::min(
           least, std::max(std::abs(touch.gap.value()) / at.scales.length, std::abs(touch.force) / at.scales.force));
+    if (const CompliantContact* const contact = at.model.compliant())
+      for (Index j = 0; j < contact->contact_count(); ++j)
+        least = std::min(least, std::abs(contact->nearest(at.point.state, j).gap) / at.scales.length);
     verdict_.findings.compare("changing contact has zero gap or force", least, 1e-8);
   }
 

@@ -49,10 +49,23 @@ bool exclude_turn(const StabilityCount& before, const StabilityCount& behind) {
   return before.unstable && behind.unstable && (*behind.unstable - *before.unstable) % 2 == 0;
 }
 
+// The state of an event at a change of contact. What presses by its deformation alone has equations that are smooth up
+// to the change on the active set where it is open.
+State state_of_event(const System& system, const Corner& corner, const PathPoint& behind) {
+  const ActiveSet &old = corner.at.state.active_set, &now = behind.state.active_set;
+  ActiveSet smooth = now;
+  for (std::size_t j = 0; j < now.contacts(); ++j) {
+    const auto contact = static_cast<Index>(j);
+    if (now[j] != 0 && old[j] == 0 && system.compliance(now, contact) > 0.0 && !system.multiplier_index(now, contact))
+      smooth[j] = 0;
+  }
+  return smooth == now ? behind.state : system.with_active_set(behind.state, smooth);
+}
+
 std::vector<Event> events_at(const TraceTools& tools, const Corner& corner, const PathPoint& behind,
                              const std::vector<int>& signs, const std::vector<OutgoingDirection>& untaken) {
   std::vector<Event> events;
-  Event event{.state = behind.state,
+  Event event{.state = state_of_event(tools.system, corner, behind),
               .arc = behind.arc,
               .residual = corner.at.residual,
               .lambda_uncertainty = 0.0,

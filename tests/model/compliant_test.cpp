@@ -655,18 +655,28 @@ TEST(CompliantWalls, AreReadAsTheyAreWritten) {
   }
 }
 
-// The rate of a snap by the stiffness against runs beside.
-TEST(CompliantWalls, KnowHowLoadsDependOnTheirStiffness) {
+// The rates of a touch by the place of the wall, on which the stiffness has no influence, and of a snap by the
+// stiffness, against runs beside.
+TEST(CompliantWalls, KnowHowLoadsDependOnThem) {
   const std::string deck = column_in_channel("\"elastica\"", 24, 500.0);
-  const auto snap = [&](const std::string& stiffness) {
-    return event_of(record(traced(deck, {"contact.law.stiffness=" + stiffness})), EventKind::limit_point).lambda;
+  const auto load = [&](EventKind kind, const std::string& assignment) {
+    return event_of(record(traced(deck, {assignment})), kind).lambda;
   };
-  const Session run = traced(deck, {"path.sensitivity=[\"contact.law.stiffness\"]"});
-  const RecordEvent& event = event_of(record(run), EventKind::limit_point);
-  ASSERT_EQ(event.sensitivity.size(), 1U);
-  ASSERT_TRUE(event.sensitivity.front().slope) << event.sensitivity.front().why_none;
-  const double rate = *event.sensitivity.front().slope;
-  EXPECT_NEAR(rate, (snap("501") - snap("499")) / 2.0, 1e-4 * std::abs(rate));
+  const Session run = traced(deck, {"path.sensitivity=[\"contact.law.stiffness\",\"wall.upper.profile.z\"]"});
+  const auto rate = [&](EventKind kind, std::size_t key) {
+    const RecordSensitivity& of = event_of(record(run), kind).sensitivity.at(key);
+    EXPECT_TRUE(of.slope) << of.why_none;
+    return of.slope.value_or(0.0);
+  };
+  const double snap = (load(EventKind::limit_point, "contact.law.stiffness=501") -
+                       load(EventKind::limit_point, "contact.law.stiffness=499")) /
+                      2.0;
+  const double touch = (load(EventKind::contact_closes, "wall.upper.profile.z=0.1501") -
+                        load(EventKind::contact_closes, "wall.upper.profile.z=0.1499")) /
+                       2e-4;
+  EXPECT_NEAR(rate(EventKind::limit_point, 0), snap, 1e-4 * std::abs(snap));
+  EXPECT_NEAR(rate(EventKind::contact_closes, 0), 0.0, 1e-9);
+  EXPECT_NEAR(rate(EventKind::contact_closes, 1), touch, 1e-4 * std::abs(touch));
 }
 
 // A wall of its own law, and laws of walls that are rigid.
