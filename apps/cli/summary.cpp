@@ -34,31 +34,40 @@ class Lines {
 struct FirstGap {
   Index candidates = 0;
   double gap = infinity;
-  const Candidate* at = nullptr;
+  ContactLabel at{};
 };
 
-// By the names of the walls.
-std::unordered_map<std::string, FirstGap> first_gaps(const MultiplierContact& contact, const State& at_rest) {
+// By the names of the walls: at nodes, or of compliant walls anywhere along members.
+std::unordered_map<std::string, FirstGap> first_gaps(const Model& model, const State& at_rest) {
   std::unordered_map<std::string, FirstGap> gaps;
-  for (Index j = 0; j < contact.contact_count(); ++j) {
-    const Candidate& candidate = contact.candidate(j);
-    FirstGap& first = gaps[candidate.label().wall];
+  const auto look_at = [&](const std::string& wall, double gap, const auto& label) {
+    FirstGap& first = gaps[wall];
     ++first.candidates;
-    const double gap = candidate.gap(at_rest) + 0.0;  // no −0
-    if (gap >= first.gap) continue;
+    if (gap >= first.gap) return;
     first.gap = gap;
-    first.at = &candidate;
-  }
+    first.at = label();
+  };
+  if (const MultiplierContact* const contact = model.contact())
+    for (Index j = 0; j < contact->contact_count(); ++j) {
+      const Candidate& candidate = contact->candidate(j);
+      look_at(candidate.label().wall, candidate.gap(at_rest), [&] { return candidate.label(); });
+    }
+  if (const CompliantContact* const contact = model.compliant())
+    for (Index j = 0; j < contact->contact_count(); ++j)
+      look_at(contact->wall(j).name, contact->nearest(at_rest, j).gap,
+              [&] { return contact->contact(at_rest, j).label; });
   return gaps;
 }
 
 // With contact at nodes, the number of candidates too.
-std::string text_of(const FirstGap& first, bool at_nodes, const deck::Deck& deck) {
-  const std::string text = at_nodes ? fmt::format("{} candidates, ", first.candidates) : "";
-  if (first.at == nullptr) return text + "no member faces it";
-  const ContactLabel& label = first.at->label();
-  return text + "smallest initial gap " + with_unit(fmt::format("{:.6g}", first.gap), deck.units.length) +
-         fmt::format(" at {}:{:.4g}", label.member, label.fraction);
+std::string text_of(const FirstGap& first, const Model& model) {
+  std::string text;
+  if (model.compliant() != nullptr) text = "compliant, ";
+  if (model.contact() != nullptr && model.sliding() == nullptr) text = fmt::format("{} candidates, ", first.candidates);
+  if (!std::isfinite(first.gap)) return text + "no member faces it";
+  const double gap = model.frame().factor() * first.gap + 0.0;  // no −0
+  return text + "smallest initial gap " + with_unit(fmt::format("{:.6g}", gap), model.whole_deck().units.length) +
+         fmt::format(" at {}:{:.4g}", first.at.member, first.at.fraction);
 }
 
 std::string where_it_is(const deck::Wall& wall) {
@@ -83,34 +92,11 @@ std::string where_it_is(const deck::Wall& wall) {
   return deck::text_of(deck::side_words, wall.side) + " the structure";
 }
 
-// The smallest gap of a compliant wall, anywhere along members.
-std::string first_gap(const CompliantContact& contact, const std::string& wall, const State& at_rest,
-                      const deck::Deck& deck) {
-  ContactPoint at;
-  double least = infinity;
-  for (Index j = 0; j < contact.contact_count(); ++j) {
-    if (contact.wall(j).name != wall) continue;
-    const double gap = contact.nearest(at_rest, j).gap + 0.0;  // no −0
-    if (gap >= least) continue;
-    least = gap;
-    at = contact.contact(at_rest, j);
-  }
-  if (!std::isfinite(least)) return "no member faces it";
-  return "smallest initial gap " + with_unit(fmt::format("{:.6g}", least), deck.units.length) +
-         fmt::format(" at {}:{:.4g}", at.label.member, at.label.fraction);
-}
-
 void add_walls(const Model& model, Lines& lines) {
-  const deck::Deck& deck = model.whole_deck();
-  const MultiplierContact* const contact = model.contact();
   const State at_rest{.x = Vector::Zero(model.structure().size({}))};
-  auto gaps = contact == nullptr ? std::unordered_map<std::string, FirstGap>() : first_gaps(*contact, at_rest);
-  const auto gap_of = [&](const deck::Wall& wall) -> std::string {
-    if (model.compliant() != nullptr) return "compliant, " + first_gap(*model.compliant(), wall.name, at_rest, deck);
-    return contact == nullptr ? "no member faces it" : text_of(gaps[wall.name], model.sliding() == nullptr, deck);
-  };
-  for (const deck::Wall& wall : deck.walls)
-    lines.add("walls", fmt::format("{}: {}, {}", wall.name, where_it_is(wall), gap_of(wall)));
+  auto gaps = first_gaps(model, at_rest);
+  for (const deck::Wall& wall : model.whole_deck().walls)
+    lines.add("walls", fmt::format("{}: {}, {}", wall.name, where_it_is(wall), text_of(gaps[wall.name], model)));
 }
 
 void add_model(const Model& model, Lines& lines) {

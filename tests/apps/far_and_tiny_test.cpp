@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "apps/cli/summary.hpp"
 #include "core/text.hpp"
 #include "tests/apps/verify/expect_whole.hpp"
 
@@ -49,6 +50,8 @@ TEST(FarAndTiny, RunsAreThoseOfAnOrdinaryPlaceAndUnit) {
   for (const Place& of : {Place{5e5, 5.4e6, 1.0}, Place{0.0, 0.0, 1e-12}, Place{-3e-3, 7e-4, 1e-9}}) {
     SCOPED_TRACE(fmt::format("at {}, {} in units of {}", of.x, of.z, of.unit));
     const TracedDeck traced(portal(of.x, of.z, of.unit));
+    EXPECT_NE(summary(traced.model()).find(fmt::format("smallest initial gap {:.6g} m", 0.0625 * of.unit)),
+              std::string::npos);
     test::expect_whole(traced);
     ASSERT_EQ(traced.record().events.size(), ordinary.record().events.size());
     const RecordEvent& first = event_of(traced, EventKind::branch_point);
