@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -20,14 +22,12 @@ struct Neighbours {
 
 std::vector<Neighbours> neighbours_of(const Model& model) {
   const MultiplierContact& contact = *model.contact();
-  const std::vector<deck::Member>& members = model.deck().members;
+  std::unordered_map<std::string, std::size_t> number;  // of the members
+  for (const deck::Member& member : model.deck().members) number.emplace(member.name, number.size());
   std::map<std::pair<std::size_t, const Obstacle*>, std::vector<Index>> rows;
   for (Index j = 0; j < contact.contact_count(); ++j) {
     const Candidate& candidate = contact.candidate(j);
-    const auto member = std::find_if(members.begin(), members.end(),
-                                     [&](const deck::Member& one) { return one.name == candidate.label().member; });
-    if (member != members.end())
-      rows[{static_cast<std::size_t>(member - members.begin()), &candidate.obstacle()}].push_back(j);
+    rows[{number.at(candidate.label().member), &candidate.obstacle()}].push_back(j);
   }
   std::vector<Neighbours> all;
   const auto fraction = [&](Index j) { return contact.candidate(j).label().fraction; };
@@ -43,6 +43,20 @@ struct Depth {
   double depth = 0.0, between = 0.0;  ///< of the member inside the wall; of the nodes [length]
   std::string member{}, wall{};
 };
+
+// The stretches of a member's axis from one fraction to another, ascending.
+std::vector<MemberStretch> stretches_between(const Model& model, const State& state, std::size_t member, double from,
+                                             double to) {
+  constexpr double same = 1e-9;  // of an element
+  const auto elements = model.body().elements(member);
+  const auto count = double(elements->elements(state));
+  std::vector<MemberStretch> stretches;
+  for (auto e = static_cast<Index>(from * count + same); double(e) < to * count - same; ++e)
+    elements->add_stretches(state, e, stretches);
+  std::sort(stretches.begin(), stretches.end(),
+            [](const MemberStretch& a, const MemberStretch& b) { return a.from < b.from; });
+  return stretches;
+}
 
 Vec2 axis_at(const std::vector<MemberStretch>& stretches, double fraction) {
   const auto here = std::find_if(stretches.begin(), stretches.end(),
@@ -60,8 +74,7 @@ bool is_told_by(const Obstacle& wall, const Vec2& a, const Vec2& b, double lambd
 }
 
 // How deep the member's surface is inside a narrow wall between two open contacts.
-Depth depth_between(const Model& model, const State& state, const Neighbours& nodes,
-                    const std::vector<MemberStretch>& stretches) {
+Depth depth_between(const Model& model, const State& state, const Neighbours& nodes) {
   constexpr int looked_at = 16;  // places
   const MultiplierContact& contact = *model.contact();
   const Candidate &first = contact.candidate(nodes.first), &second = contact.candidate(nodes.second);
@@ -69,6 +82,7 @@ Depth depth_between(const Model& model, const State& state, const Neighbours& no
   const Vec2 a = first.point().position(state), b = second.point().position(state);
   Depth deepest{.between = (b - a).norm(), .member = first.label().member, .wall = first.label().wall};
   if (is_told_by(first.obstacle(), a, b, state.lambda)) return deepest;
+  const auto stretches = stretches_between(model, state, nodes.member, from, to);
   const Vec2 offset_a = a - axis_at(stretches, from), offset_b = b - axis_at(stretches, to);
   for (int i = 1; i < looked_at; ++i) {
     const double t = double(i) / looked_at;
@@ -80,16 +94,10 @@ Depth depth_between(const Model& model, const State& state, const Neighbours& no
 
 Depth deepest_of(const Model& model, const State& state, const std::vector<Neighbours>& neighbours) {
   Depth deepest;
-  std::map<std::size_t, std::vector<MemberStretch>> stretches;
   for (const Neighbours& nodes : neighbours) {
     const auto is_closed = [&](Index j) { return state.active_set[static_cast<std::size_t>(j)] != 0; };
     if (is_closed(nodes.first) || is_closed(nodes.second)) continue;
-    std::vector<MemberStretch>& of_member = stretches[nodes.member];
-    if (of_member.empty()) {
-      const auto elements = model.body().elements(nodes.member);
-      for (Index e = 0; e < elements->elements(state); ++e) elements->add_stretches(state, e, of_member);
-    }
-    Depth here = depth_between(model, state, nodes, of_member);
+    Depth here = depth_between(model, state, nodes);
     if (here.depth * deepest.between > deepest.depth * here.between || deepest.between == 0.0)
       deepest = std::move(here);
   }
@@ -115,8 +123,8 @@ std::string warning_of_walls_between_nodes(const Model& model, const Record& rec
     const double factor = now.frame().factor();
     return fmt::format(
         "on branch {} at λ = {:.4g} {} is inside {} by {:.2g} between two nodes, which are {:.3g} apart and do not "
-        "touch it: "
-        "contact is at nodes, and the wall is not felt there. Give the member more elements, or a theory whose "
+        "touch it: contact is at nodes, and the wall is not felt there. Give the member more elements, or a theory "
+        "whose "
         "contacts move",
         point.branch, point.lambda, deepest.member, deepest.wall, factor * deepest.depth, factor * deepest.between);
   }
