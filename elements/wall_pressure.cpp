@@ -90,6 +90,10 @@ class WallPressure::Curve {
     return {.value = at.value - kept_off(t),
             .rate = at.slope.dot(velocity(t)) - (on_.nodes_.back().kept_off - on_.nodes_.front().kept_off)};
   }
+  // As a function of ξ.
+  auto gaps(double lambda) const {
+    return [this, lambda](double t) { return gap(lambda, t); };
+  }
 
   // --- derivatives by the controls, and from these to the unknowns ---------------------------------------------------
 
@@ -200,14 +204,15 @@ struct Sample {
   double t, value, rate;
 };
 
+using Samples = std::array<Sample, samples + 1>;
+
 template <class GapAt>
-std::vector<Sample> sampled(const GapAt& gap) {
-  std::vector<Sample> seen;
-  seen.reserve(samples + 1);
-  for (int k = 0; k <= samples; ++k) {
+Samples sampled(const GapAt& gap) {
+  Samples seen;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
     const double t = double(k) / samples;
     const auto at = gap(t);
-    seen.push_back({.t = t, .value = at.value, .rate = at.rate});
+    seen[k] = {.t = t, .value = at.value, .rate = at.rate};
   }
   return seen;
 }
@@ -252,7 +257,7 @@ bool may_reach(double level, const Sample& a, const Sample& b) {
 
 // The fractions at which the gap passes a level, ascending.
 template <class GapAt>
-std::vector<double> crossings(const GapAt& gap, double level, const std::vector<Sample>& seen) {
+std::vector<double> crossings(const GapAt& gap, double level, const Samples& seen) {
   std::vector<double> found;
   const auto between = [&](double a, double of_a, double b, double of_b) {
     if ((of_a > level) != (of_b > level)) found.push_back(crossing(gap, level, a, of_a, b, of_b));
@@ -272,13 +277,13 @@ std::vector<double> crossings(const GapAt& gap, double level, const std::vector<
   return found;
 }
 
-// The parts at and below a level.
+// The parts where the gap is none or negative.
 template <class GapAt>
-std::vector<PressedPart> parts_below(const GapAt& gap, double level) {
-  const std::vector<Sample> seen = sampled(gap);
-  const std::vector<double> edges = crossings(gap, level, seen);
+std::vector<PressedPart> pressed_parts(const GapAt& gap) {
+  const Samples seen = sampled(gap);
+  const std::vector<double> edges = crossings(gap, 0.0, seen);
   std::vector<PressedPart> parts;
-  bool is_below = seen.front().value <= level;
+  bool is_below = seen.front().value <= 0.0;
   double from = 0.0;
   for (std::size_t i = 0; i <= edges.size(); ++i) {
     const double to = i < edges.size() ? edges[i] : 1.0;
@@ -297,7 +302,7 @@ WallPressure::WallPressure(Shape shape, std::vector<Node> nodes, int stride, std
 
 std::vector<PressedPart> WallPressure::pressed(const double* u, double lambda) const {
   const Curve curve(*this, u);
-  return parts_below([&](double t) { return curve.gap(lambda, t); }, 0.0);
+  return pressed_parts(curve.gaps(lambda));
 }
 
 // What acts at a point of Gauss's rule: W and its derivatives by the place, times the length that it stands for.
@@ -313,8 +318,8 @@ void WallPressure::for_each_gauss_point(const Curve& curve, double lambda, const
                                         const Visit& visit) const {
   std::vector<double> breaks{part.from, part.to};
   if (!law_->kinks().empty()) {
-    const auto gap = [&](double t) { return curve.gap(lambda, t); };
-    const std::vector<Sample> seen = sampled(gap);
+    const auto gap = curve.gaps(lambda);
+    const Samples seen = sampled(gap);
     for (const double kink : law_->kinks())
       for (const double t : crossings(gap, -kink, seen))
         if (t > part.from && t < part.to) breaks.push_back(t);
@@ -348,7 +353,7 @@ double WallPressure::evaluate_at(const double* u, double lambda, double* f, doub
   if (K != nullptr) std::fill_n(K, n * n, 0.0);
   if (f_lambda != nullptr) std::fill_n(f_lambda, n, 0.0);
   const Curve curve(*this, u);
-  const auto parts = parts_below([&](double t) { return curve.gap(lambda, t); }, 0.0);
+  const auto parts = pressed_parts(curve.gaps(lambda));
   if (parts.empty()) return 0.0;
   double V = 0.0;
   Curve::Controls slope = Curve::Controls::Zero(), slope_rate = Curve::Controls::Zero();
@@ -383,8 +388,8 @@ double WallPressure::gap(const double* u, double lambda, double fraction) const 
 
 WallPressure::LeastGap WallPressure::least_gap(const double* u, double lambda) const {
   const Curve curve(*this, u);
-  const auto gap = [&](double t) { return curve.gap(lambda, t); };
-  const std::vector<Sample> seen = sampled(gap);
+  const auto gap = curve.gaps(lambda);
+  const Samples seen = sampled(gap);
   LeastGap least;
   const auto look_at = [&](double t, double value) {
     if (value < least.value) least = {.fraction = t, .value = value};
@@ -413,7 +418,7 @@ WallPressure::Resultant WallPressure::resultant(const double* u, double lambda, 
   Resultant out;
   const Curve curve(*this, u);
   std::array<Curve::Controls, 3> by_controls{Curve::Controls::Zero(), Curve::Controls::Zero(), Curve::Controls::Zero()};
-  for (const PressedPart& part : parts_below([&](double t) { return curve.gap(lambda, t); }, 0.0))
+  for (const PressedPart& part : pressed_parts(curve.gaps(lambda)))
     for_each_gauss_point(curve, lambda, part, [&](const GaussPoint& at) {
       const Vec2 force = -at.slope, force_rate = -at.slope_rate, arm = curve.place(at.t) - about;
       const Curve::Gradient gradient = curve.gradient(at.t), of_force = -at.second * gradient;
@@ -453,8 +458,8 @@ double WallPressure::pressure(const double* u, double lambda, double fraction) c
 
 bool WallPressure::leaves_surface(const double* u, double lambda) const {
   const Curve curve(*this, u);
-  const auto gap = [&](double t) { return curve.gap(lambda, t); };
-  const std::vector<Sample> seen = sampled(gap);
+  const auto gap = curve.gaps(lambda);
+  const Samples seen = sampled(gap);
   const auto is_there = [](const Sample& one) { return std::isfinite(one.value); };
   return std::any_of(seen.begin(), seen.end(), [](const Sample& one) { return one.value < 0.0; }) &&
          !std::all_of(seen.begin(), seen.end(), is_there);
