@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +11,6 @@
 #include "contact/sliding_contact.hpp"
 #include "elements/sliding_structure.hpp"
 #include "model/build_structure.hpp"
-#include "model/compliant_contact.hpp"
 #include "model/place_gap.hpp"
 
 namespace arcwall {
@@ -35,22 +33,11 @@ std::unique_ptr<Outline> outline_of(const deck::Wall& wall);
 /// Whether a wall stands in the way of a member.
 bool concerns(const deck::Wall& wall, const std::string& member);
 
+/// How far the axis of a body of this height stays off an outline; profiles are touched by the faces themselves.
+double kept_off(const deck::Wall& wall, double height);
+
 /// What stands in the way of a member where the deck has a wall, and the faces that it is touched by.
 FacedObstacle faced_obstacle(const deck::Wall& wall, const MemberMesh& mesh, double fraction);
-
-/// A compliant wall in the way of a member: as the structure has it, and as contact tells it.
-struct CompliantWallOfMember {
-  CompliantContact::Wall contact{};
-  CompliantWall pressure{};
-};
-
-/// Those of a deck, in the order in which the structure has them; none if its walls are not compliant. `mesh_of`: of
-/// each member.
-std::vector<CompliantWallOfMember> compliant_walls(const deck::Deck& deck,
-                                                   const std::function<const MemberMesh&(Index)>& mesh_of);
-
-/// Adds a problem for what does not go with compliant walls, and for each that a member penetrates at the start.
-void check_compliant_walls(const deck::Deck& deck, const Structure& structure, DeckProblems& problems);
 
 /// Holds the rotations of straight members that lie on a line between two rigid walls which leave no clearance, where
 /// sections turn with the axis: between its nodes it is on that line, too.
@@ -58,6 +45,12 @@ void hold_between_walls(const deck::Deck& deck, StructureBuilder& builder);
 
 /// Where walls without clearance hold members at points that slide through.
 using PinchedPlaces = std::vector<SlidingContact::PinchedPlace>;
+
+/// Whether an outline can be touched by a member of some height at all; adds a problem if not. `known`: where knife
+/// edges hold members; `unit`: the deck's unit of length.
+bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlaces& known, double unit,
+               DeckProblems& problems);
+
 PinchedPlaces pinched_places(const deck::Deck& deck, const SlidingStructure& structure);
 
 /// Every node of a wall's members against the wall: on the face that looks at it, or on the axis. Adds a problem for

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "elements/mechanism.hpp"
-#include "model/build_contact.hpp"
+#include "model/build_compliant_walls.hpp"
 
 namespace arcwall {
 

@@ -8,6 +8,7 @@
 
 #include "core/algebra/bordered_solver.hpp"
 #include "core/text.hpp"
+#include "model/build_compliant_walls.hpp"
 #include "model/build_contact.hpp"
 #include "model/build_monitors.hpp"
 #include "model/build_path.hpp"
