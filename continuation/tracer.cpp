@@ -173,13 +173,11 @@ void Tracer::set_detectors() {
   detectors.insert(detectors.end(), own.begin(), own.end());
 }
 
-// What was assumed, behind a contact that has opened, which held the structure. Where a span has just begun that is too
-// stiff to say much.
-void Tracer::measure_lambda_scale(const Arc& arc) {
-  const auto opens = [](const Event& event) { return event.kind == EventKind::contact_opens; };
+// What was assumed where λ does not move the structure, as a load that presses on a contact, is measured as soon as it
+// does; not where a span has just begun that is too stiff to say much.
+void Tracer::measure_lambda_scale() {
   Departure& from = state_.from;
-  if (!state_.lambda_scale_is_assumed || from.known_end || std::none_of(arc.events.begin(), arc.events.end(), opens))
-    return;
+  if (!state_.lambda_scale_is_assumed || from.known_end) return;
   const std::optional<double> scale = natural_lambda_scale(*tools_, from.point.state);
   if (!scale) return;
   state_.lambda_scale = *scale;
@@ -193,7 +191,7 @@ std::optional<Arc> Tracer::next() {
   if (state_.end) return std::nullopt;
   if (state_.points == 0) {
     std::optional<Arc> first = begin();
-    if (first) measure_lambda_scale(*first);
+    if (first) measure_lambda_scale();
     return first;
   }
   if (state_.points >= tools_->options.max_points) {
@@ -213,7 +211,7 @@ std::optional<Arc> Tracer::next() {
     tell_ledger(tools_->options, attempt);
     if (auto* const accepted = std::get_if<Accepted>(&attempt.result)) {
       Arc arc = take(std::move(*accepted), state_);
-      measure_lambda_scale(arc);
+      measure_lambda_scale();
       return arc;
     }
     state_.from.pending_singular.clear();  // where what was known could not be reached, a step is taken anew

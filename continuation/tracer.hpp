@@ -57,7 +57,7 @@ class Tracer {
  private:
   bool is_of_this_branch(const TracerState& state) const;
   void set_detectors();
-  void measure_lambda_scale(const Arc& arc);
+  void measure_lambda_scale();
   std::optional<Arc> begin();
 
   std::unique_ptr<TraceTools> tools_;

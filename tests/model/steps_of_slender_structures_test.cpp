@@ -184,6 +184,33 @@ TEST(PulledSwitch, PeelsOffInStepsOfItsMotion) {
   EXPECT_NEAR(record.points.back().lambda, small_slopes, 0.13 * 0.13 * small_slopes);
 }
 
+// Glue that softens holds the beam on its stop: it peels off at a maximum of λ and comes to rest at a minimum. By
+// shooting from the edge of contact, in small slopes. While the beam lies flat its pull moves nothing, and no scale of
+// λ is known.
+TEST(PulledSwitch, PeelsOffGlueThroughTwoLimitPoints) {
+  std::string deck = pulled_switch;
+  deck += R"toml(
+[[spring]]
+on = "beam"
+law = { direction = "z", displacement = [-3.0, -2.95, -2.9, -2.8, -2.7, -2.6, 0.0], force = [1.0, 2.0, 1.5, 0.5, 0.1, 0.0, 0.0] }
+)toml";
+  const Session run = test::traced(deck, {"member.beam.elements=60"});
+  const Record& record = run.record();
+  EXPECT_EQ(record.branches.back().end->reason, EndReason::stop);
+  std::vector<double> turns;
+  for (const RecordEvent& event : record.events)
+    if (record.stage_of(event.branch) == "pull") {
+      EXPECT_NE(event.kind, EventKind::branch_point);
+      if (event.kind == EventKind::limit_point) turns.push_back(event.lambda);
+    }
+  ASSERT_EQ(turns.size(), 2U);
+  EXPECT_NEAR(turns[0], 57.84617, 1e-4 * 57.84617);
+  EXPECT_NEAR(turns[1], 53.25396, 1e-4 * 53.25396);
+  EXPECT_LE(std::count_if(record.points.begin(), record.points.end(),
+                          [&](const RecordPoint& point) { return record.stage_of(point.branch) == "pull"; }),
+            100);
+}
+
 // The load on the truss's top goes into the floor until it bears the constant load: no first step says how far it moves
 // the truss. With Green's strain the top at z over its supports bears EA z (h² − z²)/L³, greatest at z = −h/√3.
 TEST(LiftedTruss, IsFollowedInStepsOfItsMotionOnceItIsFree) {
