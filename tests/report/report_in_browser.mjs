@@ -6,9 +6,6 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { channel, desktop, examples, folder, has_plotly, open, phone, report_of, trace_path } from './browser.mjs';
 import { hostile_decks } from './hostile_decks.mjs';
-import './pages_in_browser.mjs';
-import './shape_in_browser.mjs';
-import './sweep_in_browser.mjs';
 
 const shape = (page) => page.$eval('#shown .member:not(.band)', (path) => path.getAttribute('d'));
 const lambda = (page) => page.$eval('#values td', (cell) => Number(cell.textContent));
