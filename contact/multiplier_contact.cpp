@@ -323,7 +323,7 @@ StepVerdict MultiplierContact::check(const CheckedStep& step) const {
   if (step.located) {
     if (passes_through(step.from, step.to)) return {.fault = Fault::wall_crossed};
     for (const Candidate& held : held_)
-      if (enters(held, step.from, step.to)) return {.fault = Fault::wall_crossed, .place = words_of(held.label())};
+      if (enters(held, step.from, step.to)) return {.fault = Fault::blocked, .place = words_of(held.label())};
     return {};
   }
   for (std::size_t j = 0; j < candidates_.size(); ++j)

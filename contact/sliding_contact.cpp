@@ -92,19 +92,36 @@ Row guard_gradient_of_contact(const SlidingSetting& setting, const SlidingState&
   return row;
 }
 
+std::string name_of(const SlidingSetting& setting, const FreeEnd& end) {
+  const double s = end.last ? setting.body.length(end.strand) : 0.0;
+  const auto [member, fraction] = setting.body.label({.strand = end.strand, .s = s});
+  return words_of({.wall = setting.obstacles[end.obstacle].name, .member = member, .fraction = fraction});
+}
+
+// Of an end that supports hold.
+double gap_of(const SlidingSetting& setting, const FreeEnd& end, const SlidingState& at) {
+  return sliding::face_gap(setting, sliding::touch_of_end(setting, at.layout, end), at);
+}
+
 // The name of an end that supports hold and that an obstacle has reached on the way between two states.
 std::optional<std::string> entered_held_end(const SlidingSetting& setting, const SlidingState& from,
                                             const SlidingState& to) {
   const double touching = sliding::touching_at_rest * setting.scales.length;
   for (const FreeEnd& end : setting.held_ends) {
-    const auto gap = [&](const SlidingState& at) {
-      return sliding::face_gap(setting, sliding::touch_of_end(setting, at.layout, end), at);
-    };
-    const double before = gap(from);
-    if (!std::isfinite(before) || before < -touching || gap(to) >= -touching) continue;
-    const double s = end.last ? setting.body.length(end.strand) : 0.0;
-    const auto [member, fraction] = setting.body.label({.strand = end.strand, .s = s});
-    return words_of({.wall = setting.obstacles[end.obstacle].name, .member = member, .fraction = fraction});
+    const double before = gap_of(setting, end, from);
+    if (std::isfinite(before) && before >= -touching && gap_of(setting, end, to) < -touching)
+      return name_of(setting, end);
+  }
+  return std::nullopt;
+}
+
+// The name of an end that supports hold, that an obstacle touches and that λ would press into it.
+std::optional<std::string> pressed_held_end(const SlidingSetting& setting, const SlidingState& at, double dlambda) {
+  for (const FreeEnd& end : setting.held_ends) {
+    const double gap = gap_of(setting, end, at);
+    if (!std::isfinite(gap) || std::abs(gap) > sliding::touching_at_rest * setting.scales.length) continue;
+    const sliding::Touch touch = sliding::touch_of_end(setting, at.layout, end);
+    if (sliding::touch_gap(setting, touch, at).gap.rate * dlambda < 0.0) return name_of(setting, end);
   }
   return std::nullopt;
 }
@@ -236,6 +253,8 @@ bool SlidingContact::leaves_stability_open(const ActiveSet& active_set) const {
 std::vector<Transition> SlidingContact::transitions(const State& state, const Direction& forward, Index bound,
                                                     double tolerance) const {
   const SlidingState at(state);
+  if (auto place = pressed_held_end(*setting_, at, forward.dlambda))
+    return {{.change = Transition::Change::blocked, .detail = std::move(*place)}};
   const sliding::ValidityBound& at_hand = bound_of(at, bound);
   return at_hand.transitions(*setting_, at, {.forward = forward, .tolerance = tolerance, .at_hand = &at_hand});
 }
@@ -259,7 +278,7 @@ StepVerdict SlidingContact::check(const CheckedStep& step) const {
   const CheckedStep::LocatedEnd& end = *step.located;
   if (sliding::passes_through(*setting_, from, to)) return {.fault = StepVerdict::Fault::wall_crossed};
   if (auto place = entered_held_end(*setting_, from, to))
-    return {.fault = StepVerdict::Fault::wall_crossed, .place = std::move(*place)};
+    return {.fault = StepVerdict::Fault::blocked, .place = std::move(*place)};
   StepVerdict verdict;
   const auto restart_with = [&](std::optional<Transition> layout) {
     if (layout) verdict.restarts.push_back(std::move(*layout));

@@ -135,7 +135,7 @@ enum class EndReason {
   equilibrium_family,  ///< a family of equilibria with one load and energy follows
   not_modelled,        ///< a contact configuration follows that is not modelled
   rigid_body_motion,   ///< an unconstrained body moved away
-  jammed,              ///< no motion in which friction opposes slip continues the path
+  jammed,              ///< friction or a support in the way of a wall lets no motion continue the path
   unstable,            ///< the structure lost its stability, and no state after a jump is known
 };
 

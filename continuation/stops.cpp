@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "core/text.hpp"
+
 namespace arcwall {
 
 std::optional<BranchEnd> stop_at_contacts(const TraceOptions& options, const ActiveSet& before,
@@ -30,6 +32,11 @@ std::optional<BranchEnd> stop_at_events(const TraceOptions& options, const std::
     if (std::any_of(events.begin(), events.end(), [&](const Event& event) { return event.kind == stop.kind; }))
       met = {.reason = EndReason::stop, .detail = stop.label};
   return met;
+}
+
+BranchEnd blocked_end(const std::string& place) {
+  return {.reason = EndReason::jammed,
+          .detail = with_place("the wall has come to a place that supports hold, and nothing gives way", place)};
 }
 
 std::string detail_of_partner(EndReason reason, int branch) {

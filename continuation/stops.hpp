@@ -19,6 +19,9 @@ std::optional<BranchEnd> stop_at_bounds(const TraceOptions& options, const State
 /// The end of a branch at a point with such events.
 std::optional<BranchEnd> stop_at_events(const TraceOptions& options, const std::vector<Event>& events);
 
+/// The end of a branch at a wall that has come to a place that supports hold. `place`: `floor at beam:1`.
+BranchEnd blocked_end(const std::string& place);
+
 /// Returns the detail of an end behind which another branch continues the path: switched_branch or jumped.
 std::string detail_of_partner(EndReason reason, int branch);
 

@@ -31,6 +31,7 @@ BranchEnd end_of_attempts(const TraceOptions& options, const std::optional<Rejec
             .detail =
                 "the structure would enter a wall from beyond its open end, where it has no contact surface; a closed "
                 "outline has one all around"};
+  if (why && why->outcome == StepOutcome::blocked) return blocked_end(why->where);
   if (controlled)
     return {.reason = EndReason::control_turns,
             .detail = "the controlled quantity turns back; use path.method = \"spherical\""};

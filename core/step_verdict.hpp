@@ -32,6 +32,7 @@ struct StepVerdict {
     behind_end,    ///< the structure entered a wall from beyond its end, where it has no contact surface
     wall_crossed,  ///< the structure would pass through a wall between the two states
     penetration,   ///< the structure penetrates a wall between the contacts
+    blocked,       ///< a wall would enter a place that supports hold
   };
   /// Layouts at the step's start with guards for what happens in it, or with a mesh that fits the located guard. The
   /// step is repeated with the first that passes through its start. If there is none, `fault` counts.

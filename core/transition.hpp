@@ -29,9 +29,10 @@ struct Transition {
     remeshed,     ///< the same point with other unknowns
     continuum,    ///< a family of equilibria with the same load and energy
     unsupported,  ///< a contact configuration that is not modelled
+    blocked,      ///< nothing: a wall has come to a place that supports hold
   };
   Change change = Change::remeshed;
-  std::string detail{};  ///< of the last two: what and why
+  std::string detail{};  ///< of the last three: what and why
   /// That lies ahead, of which the active set ahead, where there is one, keeps one member.
   std::optional<Continuum> continuum{};
   /// That change: in the active set behind; of `gathers`, of `joins`, and of `splits` without a quantity in the active

@@ -38,6 +38,8 @@ std::string_view to_text(StepOutcome outcome) {
       return "event_not_located";
     case StepOutcome::penetration:
       return "penetration";
+    case StepOutcome::blocked:
+      return "blocked";
     case StepOutcome::contact_inserted:
       return "contact_inserted";
     case StepOutcome::events_unclear:

@@ -11,7 +11,8 @@
 namespace arcwall {
 
 bool leads_on(Transition::Change change) {
-  return change != Transition::Change::continuum && change != Transition::Change::unsupported;
+  return change != Transition::Change::continuum && change != Transition::Change::unsupported &&
+         change != Transition::Change::blocked;
 }
 
 bool begins_with_length(const Transition& transition) {

@@ -8,6 +8,7 @@
 #include "continuation/corners/corner.hpp"
 #include "continuation/corners/first_point.hpp"
 #include "continuation/events/branch_point.hpp"
+#include "continuation/stops.hpp"
 #include "core/text.hpp"
 
 namespace arcwall {
@@ -37,6 +38,7 @@ EventKind kind_of(const Transition& transition, Index more, const ActiveSet& of_
     case Transition::Change::remeshed:
     case Transition::Change::continuum:
     case Transition::Change::unsupported:
+    case Transition::Change::blocked:
       break;
   }
   assert(false);
@@ -48,6 +50,7 @@ BranchEnd end_before(const std::vector<Transition>& transitions, const std::stri
   if (transitions.empty() || leads_on(transitions.back().change))
     return {.reason = EndReason::singular, .detail = with_place(nothing_behind_change, place)};
   const Transition& last = transitions.back();
+  if (last.change == Transition::Change::blocked) return blocked_end(last.detail);
   const bool continuum = last.change == Transition::Change::continuum;
   return {.reason = continuum ? EndReason::equilibrium_family : EndReason::not_modelled,
           .detail = with_place(last.detail, place),

@@ -46,6 +46,8 @@ StepOutcome outcome_of(StepVerdict::Fault fault) {
     case StepVerdict::Fault::wall_crossed:
     case StepVerdict::Fault::penetration:
       return StepOutcome::penetration;
+    case StepVerdict::Fault::blocked:
+      return StepOutcome::blocked;
   }
   return StepOutcome::accepted;
 }

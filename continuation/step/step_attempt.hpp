@@ -22,6 +22,7 @@ enum class StepOutcome {
   tangent_angle,      ///< the tangent angle exceeds StepOptions::max_turn
   event_not_located,  ///< the active-set change was not located
   penetration,        ///< the structure penetrates a wall between the contacts
+  blocked,            ///< a wall would enter a place that supports hold
   contact_inserted,   ///< the same; contacts were added there and the step is repeated
   events_unclear,     ///< an event inside the step was not located
   ended,              ///< the branch ends here
