@@ -509,6 +509,7 @@ std::optional<Transition> spans_lie_down(const SlidingSetting& setting, const Sl
 }  // namespace
 
 std::vector<Transition> points_to_lines(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
+  if (auto zones = zones_leave_joints(setting, at, arrival); !zones.empty()) return zones;
   const Points points = points_without_curvature(setting, at, arrival);
   const Planes planes = planes_without_curvature(setting, at, arrival);
   if (points.size() == 1 && planes.empty())

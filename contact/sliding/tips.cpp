@@ -242,6 +242,7 @@ std::optional<std::size_t> pressed_contact(const SlidingSetting& setting, const 
 }
 
 std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
+  if (auto zones = zones_leave_joints(setting, at, arrival); !zones.empty()) return zones;
   const std::vector<ClosedTip> tips = tangent_tips(setting, at, arrival);
   const auto has_joint = std::any_of(tips.begin(), tips.end(), [&](const ClosedTip& tip) {
     return setting.body.joined_end(tip.strand, tip.last).has_value();
@@ -355,6 +356,62 @@ std::vector<Transition> peel_off_from_tips(const SlidingSetting& setting, const 
   }
   transitions.push_back(none);
   return transitions;
+}
+
+namespace {
+
+// An arch between a joint that touches and the next contact point, on one straight wall, that has no height left.
+struct VanishedArch {
+  ClosedTip joint;
+  std::size_t point;
+};
+
+// In the order of their places. Without load between, an axis with neither slope nor curvature at one end is straight.
+std::vector<VanishedArch> vanished_arches_at_joints(const SlidingSetting& setting, const SlidingState& at,
+                                                    const Arrival& arrival) {
+  std::vector<VanishedArch> arches;
+  for (const ClosedTip& joint : tangent_tips(setting, at, arrival)) {
+    const auto point = at.layout.point_at_end(joint.strand, joint.last);
+    const bool is_arch = point && at.is_closed(*point) && at.layout.points()[*point].obstacle == joint.obstacle &&
+                         at.layout.segment_at_end(joint.strand, joint.last).has_point();
+    if (is_arch && joint.bends_with_it && setting.body.joined_end(joint.strand, joint.last) &&
+        !at.layout.lies_beside(*point) && lies_by_itself(setting, at, *point))
+      arches.push_back({.joint = joint, .point = *point});
+  }
+  std::sort(arches.begin(), arches.end(), [](const VanishedArch& a, const VanishedArch& b) {
+    return std::pair(a.point, a.joint.last) < std::pair(b.point, b.joint.last);
+  });
+  return arches;
+}
+
+}  // namespace
+
+std::vector<Transition> zones_leave_joints(const SlidingSetting& setting, const SlidingState& at,
+                                           const Arrival& arrival) {
+  const std::vector<VanishedArch> arches = vanished_arches_at_joints(setting, at, arrival);
+  if (arches.empty()) return {};
+  const ClosedTip& first = arches.front().joint;
+  const double length = 2.0 * shortest_tail(setting.body, first.strand);
+  LayoutEdit edit = edit_of(setting.body, at);
+  std::vector<Index> contacts;
+  for (const VanishedArch& arch : arches) contacts.push_back(static_cast<Index>(arch.point));
+  for (auto arch = arches.rbegin(); arch != arches.rend(); ++arch) {
+    const auto& [joint, point] = *arch;
+    const double s = joint.last ? setting.body.length(joint.strand) - length : length;
+    edit.insert_near_end({joint.strand, joint.last}, s, joint.obstacle, Span::free, Span::flat, 1, joint.force);
+    if (joint.last) edit.points[point].behind = Span::flat;
+    edit.elements_behind(point) = 1;  // of the zone: between the point, or the new one, and the next
+    edit.ends_closed[joint.end] = 0;
+    edit.end_forces[joint.end] = 0.0;
+    contacts.push_back(static_cast<Index>(at.layout.points().size() + joint.end));
+  }
+  const auto on = layout_of(edit);
+  auto tail = std::make_shared<TailLength>(on->point_at_end(first.strand, first.last).value(),
+                                           first.last ? setting.body.length(first.strand) : 0.0);
+  Transition transition = up_to(length, std::move(tail), Change::spreads, mapped_onto(setting, at, edit, on));
+  transition.contacts = std::move(contacts);
+  return {std::move(transition),
+          unsupported("a contact zone begins at a joint, but no equilibrium with the joint off the wall was found")};
 }
 
 std::optional<Transition> tip_touches_with(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {

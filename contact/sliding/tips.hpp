@@ -36,6 +36,12 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
 std::vector<Transition> peel_off_from_tips(const SlidingSetting& setting, const SlidingState& at,
                                            const std::vector<StrandEnd>& tips, bool lifted);
 
+/// What lies behind a state where the arch between a joint and a contact point on one straight wall vanishes: with the
+/// point's curvature gap goes the angle at the joint, as nothing acts between them. From there to the point the body
+/// lies on the wall at once, the zone's other edge comes in from the joint, and that leaves the wall. Empty elsewhere.
+std::vector<Transition> zones_leave_joints(const SlidingSetting& setting, const SlidingState& at,
+                                           const Arrival& arrival);
+
 /// Where the body behind a point that loses its curvature gap bends all along as the obstacle does, up to a tip that it
 /// thereby touches: the contact of the tip closes. Empty elsewhere.
 std::optional<Transition> tip_touches_with(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
