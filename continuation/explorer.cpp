@@ -36,7 +36,7 @@ std::vector<TriedWay> tried_ways(const System& system, const TraceOptions& trace
   StabilityCounter counter(system, corrector.factorized(), trace.guard_tolerance, trace.factorization);
   std::vector<TriedWay> ways;
   for (const int sign : {1, -1}) {
-    TriedWay tried{.sign = sign, .way = way_off(point, sign)};
+    TriedWay tried{.sign = sign, .way = way_off(metric, point, sign)};
     if (point.at_corner) {
       tried.entered = enter_branch(system, corrector, metric, point, sign, distance, trace.guard_tolerance);
       if (!tried.entered) continue;

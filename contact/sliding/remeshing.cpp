@@ -156,10 +156,12 @@ ActiveSet canonical_active_set(const SlidingSetting& setting, const SlidingState
   std::vector<Point> points = at.layout.points();
   bool changed = false;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (points[k].behind != Span::flat) continue;
     if (std::abs(curvature_gap(setting, at, k)) * setting.scales.length <= nearly_straight) continue;
-    points[k].behind = Span::free;
-    changed = true;
+    for (Span* part : {&points[k].before, &points[k].behind}) {
+      if (*part != Span::flat) continue;
+      *part = Span::free;
+      changed = true;
+    }
   }
   if (!changed) return at.state.active_set;
   return with_layout(at.state.active_set,

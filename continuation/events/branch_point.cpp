@@ -23,7 +23,8 @@ void find_other_tangent(const Equations& system, const Metric& metric, const Vec
   Linearization beside;
   const double b = eigenvalue_rate(system, point.state, point.along, left, point.mode.dx, beside);
   const double a = eigenvalue_rate(system, point.state, point.mode, left, point.mode.dx, beside);
-  const bool symmetric = std::abs(a) <= std::max(negligible * std::abs(b), eigenvalue_rate_roundoff(left, beside));
+  const bool symmetric =
+      std::abs(a) <= std::max(negligible * std::abs(b), eigenvalue_rate_roundoff(left, point.mode.dx, beside));
   point.type = symmetric ? BranchType::pitchfork : BranchType::transcritical;
   Direction other = point.mode;
   if (!symmetric) {
@@ -110,10 +111,13 @@ double eigenvalue_rate(const Equations& system, const State& state, const Direct
   return rate;
 }
 
-double eigenvalue_rate_roundoff(const Vector& left, const Linearization& workspace) {
-  const Vector size = left.head(workspace.K.cols()).cwiseAbs();
-  return 10.0 * std::numeric_limits<double>::epsilon() *
-         size.dot(workspace.K.cwiseAbs().selfadjointView<Eigen::Lower>() * size) / rate_step;
+// The entries of K are rounded independently of each other: their errors add as roots of squares do. Added by size they
+// would hide rates on fine meshes, as EI/h³ grows.
+double eigenvalue_rate_roundoff(const Vector& left, const Vector& mode, const Linearization& workspace) {
+  const Index n = workspace.K.cols();
+  const Vector by_row = workspace.K.cwiseAbs2().selfadjointView<Eigen::Lower>() * mode.head(n).cwiseAbs2();
+  const double squared = left.head(n).cwiseAbs2().dot(by_row);
+  return 10.0 * std::numeric_limits<double>::epsilon() * std::sqrt(squared) / rate_step;
 }
 
 BranchPoint branch_point_at(const Equations& system, Corrector& corrector, const Metric& metric,
@@ -177,10 +181,13 @@ void find_crossing_branch(Corrector& corrector, const Metric& metric, BranchPoin
     point.ways.push_back({.active_set = point.state.active_set, .direction = direction});
 }
 
-WayOff way_off(const BranchPoint& point, int sign) {
-  const Direction& across = point.ends_its_own_branch() ? point.other : point.mode;
-  if (sign > 0) return {.forward = point.other, .across = across};
-  return {.forward = reversed(point.other), .across = reversed(across)};
+WayOff way_off(const Metric& metric, const BranchPoint& point, int sign) {
+  const Direction forward = sign > 0 ? point.other : reversed(point.other);
+  const double part = metric.inner(forward, point.along) / metric.inner(point.along, point.along);
+  Direction across = forward;
+  across.dx -= part * point.along.dx;
+  across.dlambda -= part * point.along.dlambda;
+  return {.forward = forward, .across = std::move(across)};
 }
 
 double roundoff_width(Corrector& corrector, const Metric& metric, const SingularPlace& place,

@@ -14,8 +14,8 @@ namespace arcwall {
 double eigenvalue_rate(const Equations& system, const State& state, const Direction& d, const Vector& left,
                        const Vector& mode, Linearization& workspace);
 
-/// What round-off may make of that; `workspace` as the rate left it.
-double eigenvalue_rate_roundoff(const Vector& left, const Linearization& workspace);
+/// What round-off of K's entries may make of that; `workspace` as the rate left it.
+double eigenvalue_rate_roundoff(const Vector& left, const Vector& mode, const Linearization& workspace);
 
 /// What a singular place is: its modes, its type and the tangents of the branches that cross there. Where no mode can
 /// be computed, `mode` stays empty.
@@ -35,12 +35,12 @@ void find_crossing_branch(Corrector& corrector, const Metric& metric, BranchPoin
 /// How a branch leaves a branch point.
 struct WayOff {
   Direction forward{};  ///< unit tangent
-  Direction across{};   ///< along which the first step is measured, so that it cannot fall back onto the old branch
+  Direction across{};   ///< its part across the path, along which the first step is measured: no plane across it
+                        ///< meets the old branch, so that the step cannot fall back onto that
 };
 
-/// Both ways along the other branch, ± its tangent: measured along the mode, or where the path itself is the branch of
-/// a pitchfork along that tangent.
-WayOff way_off(const BranchPoint& point, int sign);
+/// Both ways along the other branch, ± its tangent.
+WayOff way_off(const Metric& metric, const BranchPoint& point, int sign);
 
 /// By how much of the chord on which its rate was taken round-off in the factors of K may move a singular place: an
 /// eigenvalue that they are not sure of may be zero there. The corrector is at the place, as branch_point_at() left it.

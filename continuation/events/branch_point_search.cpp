@@ -15,8 +15,8 @@ namespace {
 // A contact may forbid one side of an asymmetric branch point.
 bool is_one_sided(TraceTools& tools, const StepOrigin& origin, const BranchPoint& point) {
   const auto open = [&](int sign) {
-    return step_off(tools.system, tools.corrector, origin.metric, point, way_off(point, sign), origin.start.distance,
-                    tools.options.guard_tolerance)
+    return step_off(tools.system, tools.corrector, origin.metric, point, way_off(origin.metric, point, sign),
+                    origin.start.distance, tools.options.guard_tolerance)
         .has_value();
   };
   return open(1) != open(-1);

@@ -61,7 +61,8 @@ TEST(Branching, SteppingOffLandsOnTheOtherBranchOnEitherSide) {
   const Metric metric(Vector::Ones(1), 1.0);
   Corrector corrector(system, {}, 1.0);
   for (const int sign : {1, -1}) {
-    const auto off = step_off(system, corrector, metric, *event.branching, way_off(*event.branching, sign), 0.1, 1e-12);
+    const auto off =
+        step_off(system, corrector, metric, *event.branching, way_off(metric, *event.branching, sign), 0.1, 1e-12);
     ASSERT_TRUE(off.has_value());
     EXPECT_GT(sign * off->state.x[0], 0.01);
     EXPECT_NEAR(off->state.lambda, off->state.x[0] * off->state.x[0], 1e-12);
