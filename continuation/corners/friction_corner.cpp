@@ -415,6 +415,16 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
   std::erase_if(ways, [&](const Continuation& way) {
     return (!corner.begins_branch && cosine(way) < -same_way) || unloads(way, choices, sense);
   });
+  const std::optional<Index> before =
+      corner.at.negative_eigenvalues ? corner.at.negative_eigenvalues : corner.before.unstable;
+  const auto oriented = corner.begins_branch ? std::nullopt : orientation(before, corner.at.tangent);
+  const auto turns_over = [&](const Continuation& way) {
+    const auto turned = orientation(way.unstable, way.direction);
+    return oriented && turned && *oriented != *turned;
+  };
+  for (Continuation& way : ways) way.unstable = tools.counter.negative_on(way.state);
+  // A stick has the tangent of the slip that ends, and leaves its bound by −½ D v′ s² (18.4a): D < 0 turns over.
+  if (ended) std::erase_if(ways, [&](const Continuation& way) { return cosine(way) > same_way && turns_over(way); });
   const auto turns = [&](const Continuation& way) { return way.direction.dlambda * sense < 0.0; };
   if (corner.begins_branch && !std::all_of(ways.begin(), ways.end(), turns)) std::erase_if(ways, turns);
   if (ways.empty() && !all_known) {
@@ -432,18 +442,13 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
                                        place)};
     return passed;
   }
-  const std::optional<Index> before =
-      corner.at.negative_eigenvalues ? corner.at.negative_eigenvalues : corner.before.unstable;
-  const auto oriented = corner.begins_branch ? std::nullopt : orientation(before, corner.at.tangent);
   std::optional<FrictionRank> best;
   std::size_t chosen = 0;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     Continuation& way = ways[i];
-    way.unstable = tools.counter.negative_on(way.state);
     way.dissipation = dissipation_along(tools.system, way);
-    const auto turned = orientation(way.unstable, way.direction);
     const bool goes_on = way.direction.dlambda * sense > 0.0;
-    const FrictionRank rank{.turns_over = oriented && turned && *oriented != *turned,
+    const FrictionRank rank{.turns_over = turns_over(way),
                             .kind = !goes_on                   ? 2
                                     : way.unstable == Index{0} ? 0
                                                                : 1,
