@@ -23,7 +23,8 @@ constexpr double rate_noise = 1e-10;         // error of rates, relative to the 
 constexpr std::size_t few_contacts = 6;      // whose combinations are all tried
 constexpr std::size_t most_combined = 4096;  // combinations of modes that are tried where nothing else is found
 
-// A contact, and what it may do from here on; the first is what it would do at once where nothing is known.
+// A contact, and what it may do from here on; the first is what it would do at once where nothing is known: one whose
+// force has vanished opens, one whose gap has closes.
 struct BoundContact {
   Index contact = 0;
   std::vector<ContactMode> modes{};
@@ -65,15 +66,16 @@ std::vector<BoundContact> choices_at(const TraceTools& tools, const Corner& corn
   for (Index j = 0; j < contacts; ++j) {
     const ContactMode mode = system.mode(active_set, j);
     const bool touches = std::abs(corner.at.guards[j]) <= tolerance || landed == j;
-    if (touches && !system.is_two_sided(active_set, j))
-      choices.push_back({.contact = j,
-                         .modes = system.is_rough(j) ? std::vector{sticks, open, slips_forward, slips_backward}
-                                                     : std::vector{closed, open},
-                         .touches = true});
-    else if (slips(mode) && ended == j)
+    if (touches && !system.is_two_sided(active_set, j)) {
+      std::vector<ContactMode> modes =
+          system.is_rough(j) ? std::vector{sticks, open, slips_forward, slips_backward} : std::vector{closed, open};
+      if (mode != open) std::swap(modes[0], modes[1]);
+      choices.push_back({.contact = j, .modes = std::move(modes), .touches = true});
+    } else if (slips(mode) && ended == j) {
       choices.push_back({.contact = j, .modes = {sticks}, .ended = true});
-    else if (slips(mode))
+    } else if (slips(mode)) {
       choices.push_back({.contact = j, .modes = {mode, sticks}});
+    }
   }
   for (Index guard = contacts; guard < corner.at.guards.size(); ++guard) {
     if (!is_reached(corner.at.guards[guard], corner.at.guard_rates[guard], tolerance) && landed != guard) continue;

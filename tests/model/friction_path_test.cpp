@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -37,6 +38,32 @@ std::string heavy_bar(const std::string& stages) {
   for (int i = 1; i <= 4; ++i) text += weight(fmt::format("n{}", i), i < 4 ? 0.125 : 0.0625);
   text.replace(text.find("friction = 0.3"), 14, "friction = 0.4");
   return text + stages;
+}
+
+// A rope of 14 bars over half a drum of radius 100, μ = 0.25, with 10 at both ends and λ times 10 more at one: the
+// right one, or mirrored the left one; in bars from left to right, or reversed from right to left.
+std::string rope(bool mirrored, bool reversed) {
+  std::string text =
+      "[material.m]\nE = 1e4\n[section.s]\nshape = \"general\"\nA = 20.0\nI = 1.0\n"
+      "[path]\nstep = 0.1\nstop = { lambda = [-0.1, 5.0] }\n"
+      "[[wall]]\nname = \"drum\"\ncontact_surface = \"axis\"\nfriction = 0.25\n"
+      "outline = { type = \"circle\", centre = [0.0, 0.0], radius = 99.999999 }\n[point]\n";
+  const auto add = [&](int i, double x, double z) {
+    text += fmt::format("p{} = [{:.12g}, {:.12g}]\n", i, mirrored ? -x : x, z);
+  };
+  add(0, -100.0, -200.0);
+  for (int i = 1; i <= 13; ++i) {
+    const double turned = (i - 1) * std::numbers::pi / 12.0;
+    add(i, -100.0 * std::cos(turned), 100.0 * std::sin(turned));
+  }
+  add(14, 100.0, -200.0);
+  for (int i = 0; i < 14; ++i)
+    text += fmt::format(
+        "[member.m{}]\nfrom = \"p{}\"\nto = \"p{}\"\ntheory = \"truss\"\nmaterial = \"m\"\nsection = "
+        "\"s\"\nelements = 1\n",
+        i, reversed ? i + 1 : i, reversed ? i : i + 1);
+  for (const char* at : {"p0", "p14"}) text += weight(at, 10.0);
+  return text + "[[load]]\nat = \"p14\"\nforce = [0.0, -10.0]\n";
 }
 
 const std::string all_of_dissipation = "[[monitor]]\nname = \"lost\"\ncomponent = \"dissipation\"\n";
@@ -217,6 +244,23 @@ TEST(FrictionPath, MirrorImagesHaveTheSameEvents) {
 }
 
 // Weights that press blocks one after the other, in either order, before they are drawn.
+// By hand the rope slips as a whole at λ = 1.20406, the drum's polygon undeformed. Its last node leaves the drum where
+// its force vanishes, and it goes on sliding as λ falls: for each copy alike.
+TEST(FrictionPath, ARopeLeavesItsDrumInEachCopyAlike) {
+  for (const bool mirrored : {false, true})
+    for (const bool reversed : {false, true}) {
+      const Session run = run_of(rope(mirrored, reversed));
+      EXPECT_EQ(reason(run), EndReason::stop);
+      const std::vector<double> slips = lambdas(run, EventKind::contact_slips, 0),
+                                opens = lambdas(run, EventKind::contact_opens, 0);
+      ASSERT_EQ(slips.size(), 7U);
+      EXPECT_NEAR(slips.back(), 1.20406, 3e-4);
+      ASSERT_EQ(opens.size(), 5U);
+      EXPECT_NEAR(opens.front(), 1.204388568, 1e-8);
+      EXPECT_EQ(lambdas(run, EventKind::contact_limit_point, 0), std::vector{opens.front()});
+    }
+}
+
 // A reed is bent round a card that comes under it. Behind the snap the slip would turn back at 11.9425, and a stick
 // would leave the cone: measured on one that was forced, |T| − μ p grows by 2.6 Δλ².
 TEST(FrictionPath, JamsWhereAStickWouldLeaveTheCone) {
