@@ -326,6 +326,17 @@ std::vector<Event> events_between(const TraceTools& tools, const Corner& corner,
   return events;
 }
 
+// What holds a state of a corner on the path: across its direction, or where a branch begins at its λ, which is given.
+CorrectorResult held_at_corner(TraceTools& tools, const Corner& corner, const Metric& metric, const State& state,
+                               const Direction& along) {
+  if (!corner.begins_branch)
+    return tools.corrector.correct(state, PlaneConstraint(metric, state, along, 0.0), metric, along, 0.0);
+  const ParameterValue parameter;
+  CorrectorResult result = tools.corrector.correct(state, ValueConstraint(parameter, state.lambda), metric, along, 0.0);
+  result.state.lambda = state.lambda;  // to the last digit
+  return result;
+}
+
 // Friction is known to the error of the equations, by which contacts that stick at their bound may have passed it. They
 // hold the place at which it is met.
 void meet_bounds(TraceTools& tools, Corner& corner) {
@@ -344,8 +355,7 @@ void meet_bounds(TraceTools& tools, Corner& corner) {
   const Metric metric = tools.metric_on(start.active_set, corner.lambda_scale);
   const Direction along = unit(metric, {.dx = system.transfer(corner.at.tangent.dx, active_set, start.active_set),
                                         .dlambda = corner.at.tangent.dlambda});
-  const CorrectorResult met =
-      tools.corrector.correct(start, PlaneConstraint(metric, start, along, 0.0), metric, along, 0.0);
+  const CorrectorResult met = held_at_corner(tools, corner, metric, start, along);
   if (!met.converged()) return;
   corner.at.state = system.with_modes(met.state, again);
   corner.at.guards = system.guards(corner.at.state);
@@ -464,8 +474,7 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
   const Continuation& taken = ways[chosen];
   const Metric metric = tools.metric_on(taken.state.active_set, corner.lambda_scale);
   // Bounds that were reached together but for an error are met by all from here on.
-  CorrectorResult result = tools.corrector.correct(
-      taken.state, PlaneConstraint(metric, taken.state, taken.direction, 0.0), metric, taken.direction, 0.0);
+  CorrectorResult result = held_at_corner(tools, corner, metric, taken.state, taken.direction);
   if (!result.converged()) {
     passed.end = {.reason = EndReason::singular, .detail = with_place(nothing_behind_change, place)};
     return passed;

@@ -295,6 +295,59 @@ motion = { x = -1.0 }
   EXPECT_TRUE(lambdas(run, EventKind::contact_sticks, 0).empty());
 }
 
+// A ladder whose contacts slip or stick from the start, and a block that is dragged to and fro.
+TEST(FrictionPath, BeginsAtLambdaZero) {
+  const std::string ladder = R"(
+[material.alu]
+E = 7e7
+[section.rail]
+shape = "rectangle"
+width = 0.06
+height = 0.08
+[point]
+foot = [0.0, 0.0]
+top = [1.5, 4.0]
+[path]
+step = 0.05
+stop = { lambda = [-0.1, 2.0] }
+[member.ladder]
+from = "foot"
+to = "top"
+theory = "euler-bernoulli"
+material = "alu"
+section = "rail"
+elements = 20
+[[load]]
+at = "ladder:0.25"
+force = [0.0, -1.0]
+constant = true
+[[load]]
+at = "ladder:0.75"
+force = [0.0, -1.0]
+[[wall]]
+name = "floor"
+contact_surface = "axis"
+friction = 0.3
+outline = { type = "half-plane", point = [0.0, 0.0], normal = [0.0, 1.0] }
+[[wall]]
+name = "house"
+contact_surface = "axis"
+friction = 0.2
+outline = { type = "half-plane", point = [1.5, 0.0], normal = [-1.0, 0.0] }
+)";
+  for (const std::string& text : {ladder, block(0.3), rope(false, false)}) {
+    const Session run = run_of(text);
+    for (const RecordPoint& point : run.points())
+      if (point.step == 0) {
+        EXPECT_EQ(point.lambda, 0.0);
+      }
+    for (const RecordEvent& event : run.events())
+      if (event.step == 0) {
+        EXPECT_EQ(event.lambda, 0.0) << to_text(event.kind);
+      }
+  }
+}
+
 TEST(FrictionPath, TheOrderOfWeightsDoesNotChangeTheEvents) {
   const auto pressed = [](const char* first, const char* second) {
     const std::string weights =
