@@ -36,7 +36,7 @@ std::optional<BranchEnd> stop_at_events(const TraceOptions& options, const std::
 
 BranchEnd blocked_end(const std::string& place) {
   return {.reason = EndReason::jammed,
-          .detail = with_place("the wall has come to a place that supports hold, and nothing gives way", place)};
+          .detail = with_place("the wall has reached a supported place, and neither can move", place)};
 }
 
 std::string detail_of_partner(EndReason reason, int branch) {

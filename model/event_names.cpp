@@ -259,7 +259,7 @@ std::string_view explanation(EndReason reason) {
     case EndReason::rigid_body_motion:
       return "an unconstrained body was moved by more than 20 times the structure's size";
     case EndReason::jammed:
-      return "friction or a support in the way of a wall lets no motion continue the path";
+      return "friction, or a support that a wall has reached, admits no motion";
     case EndReason::unstable:
       return "the structure lost its stability, and no state after a jump is known";
   }
@@ -301,7 +301,7 @@ std::string_view what_to_try(EndReason reason) {
     case EndReason::rigid_body_motion:
       return "a support or a wall that restrains it, or [[prescribed]] instead of the load";
     case EndReason::jammed:
-      return "a stop before that, or a stage that drives back; less friction, or a wall that ends before the support";
+      return "a stop or a reversing stage before that; less friction; a wall that ends before the support";
     case EndReason::unstable:
       return "path.branches = \"most-stable\", which follows the path through its unstable part; a small imperfection, "
              "or a wall that stops the motion";
