@@ -183,6 +183,7 @@ void find_crossing_branch(Corrector& corrector, const Metric& metric, BranchPoin
 
 WayOff way_off(const Metric& metric, const BranchPoint& point, int sign) {
   const Direction forward = sign > 0 ? point.other : reversed(point.other);
+  if (point.type == BranchType::pitchfork) return {.forward = forward, .across = forward};
   const double part = metric.inner(forward, point.along) / metric.inner(point.along, point.along);
   Direction across = forward;
   across.dx -= part * point.along.dx;

@@ -39,7 +39,8 @@ struct WayOff {
                         ///< meets the old branch, so that the step cannot fall back onto that
 };
 
-/// Both ways along the other branch, ± its tangent.
+/// Both ways along the other branch, ± its tangent. That of a pitchfork is orthogonal to the path by symmetry, of whose
+/// tangent at a singular place part is round-off, which would tell mirror images from each other.
 WayOff way_off(const Metric& metric, const BranchPoint& point, int sign);
 
 /// By how much of the chord on which its rate was taken round-off in the factors of K may move a singular place: an
