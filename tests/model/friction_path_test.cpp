@@ -243,7 +243,6 @@ TEST(FrictionPath, MirrorImagesHaveTheSameEvents) {
   expect_same_changes(mirrored, changes(run_of(text)), 1e-10);
 }
 
-// Weights that press blocks one after the other, in either order, before they are drawn.
 // By hand the rope slips as a whole at λ = 1.20406, the drum's polygon undeformed. Its last node leaves the drum where
 // its force vanishes, and it goes on sliding as λ falls: for each copy alike.
 TEST(FrictionPath, ARopeLeavesItsDrumInEachCopyAlike) {
@@ -348,6 +347,7 @@ outline = { type = "half-plane", point = [1.5, 0.0], normal = [-1.0, 0.0] }
   }
 }
 
+// Weights that press blocks one after the other, in either order, before they are drawn.
 TEST(FrictionPath, TheOrderOfWeightsDoesNotChangeTheEvents) {
   const auto pressed = [](const char* first, const char* second) {
     const std::string weights =
