@@ -50,7 +50,7 @@ class Continuum(Value):
 
     Examples
     --------
-    >>> perfect = {"member.column.imperfection": [], "path.stop.lambda": [-1.0, 20.0]}
+    >>> perfect = {"member.column.imperfection": [], "member.column.elements": 20, "path.stop.lambda": [-1.0, 20.0]}
     >>> deck = arcwall.Deck.load("channel.toml").copy({**perfect, "path.equilibrium_family": "stop"})
     >>> end = deck.trace().branches[-1].end
     >>> end.reason, end.family.parts
