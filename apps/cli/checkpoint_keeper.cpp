@@ -29,7 +29,7 @@ void CheckpointKeeper::keep(const std::optional<BranchEnd>& stopped) {
   const Clock::time_point before = Clock::now();
   folder_.write_durably("checkpoint", bytes_(stopped));
   const std::chrono::duration<double> taken = Clock::now() - before;
-  next_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::max(pause_, taken / part));
+  next_ = Clock::now() + std::max(pause_, taken / part);
   if (pause_.count() == 0.0) next_ = before;
 }
 

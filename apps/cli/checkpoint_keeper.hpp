@@ -36,7 +36,7 @@ class CheckpointKeeper {
   const OutputFolder& folder_;
   std::chrono::duration<double> pause_;
   Bytes bytes_;
-  Clock::time_point next_;
+  std::chrono::time_point<Clock, std::chrono::duration<double>> next_;  // however far ahead
   bool warned_ = false;
 };
 

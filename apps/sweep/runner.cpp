@@ -24,6 +24,8 @@ namespace fs = std::filesystem;
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+using Moment = std::chrono::time_point<Clock, Seconds>;  // however far ahead
 
 // Of a draft: with which words its run was begun.
 constexpr const char* begun_file_name = "begun.json";
@@ -32,13 +34,11 @@ struct RunningCase {
   Case one;
   CaseDraft draft;
   pid_t child = 0;
-  std::optional<Clock::time_point> deadline{};  // to be killed
-  bool overdue = false;                         // was killed
+  std::optional<Moment> deadline{};  // to be killed
+  bool overdue = false;              // was killed
 };
 
-Clock::time_point after(double seconds) {
-  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
+Moment after(double seconds) { return Clock::now() + Seconds(seconds); }
 
 // Whether the process ended because somebody wanted it to, and not at the end of its case.
 bool was_stopped(const ChildEnd& how, bool interrupted) {
@@ -201,13 +201,12 @@ class Pool {
   }
 
   void wait() {
-    std::optional<Clock::time_point> earliest;
+    std::optional<Moment> earliest;
     for (const RunningCase& one : running_)
       if (one.deadline && (!earliest || *one.deadline < *earliest)) earliest = one.deadline;
-    constexpr double forever = 3600.0;
-    const double seconds =
-        earliest ? std::max(0.0, std::chrono::duration<double>(*earliest - Clock::now()).count()) : forever;
-    const int signal = signals_.next(seconds);
+    constexpr Seconds longest(3600.0);
+    const Seconds left = earliest ? std::clamp<Seconds>(*earliest - Clock::now(), Seconds::zero(), longest) : longest;
+    const int signal = signals_.next(left.count());
     if (signal == SIGINT || signal == SIGTERM) interrupt();
     kill_overdue();
     reap();
