@@ -111,7 +111,11 @@ bool holds_nothing(const fs::path& folder, std::error_code& error) {
 StagedFile::StagedFile(fs::path target)
     : target_(std::move(target)),
       path_(target_.parent_path() / ("." + target_.filename().string() + "." + std::to_string(::getpid()))),
-      descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666)) {
+      descriptor_(-1) {
+  // A file that is renamed to a device would take its place.
+  std::error_code ignored;
+  if (fs::is_other(target_, ignored)) fail(target_, "cannot be written", "it is a device, a pipe or a socket");
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor_ < 0) give_up(errno);
 }
 

@@ -1,6 +1,7 @@
 #include "apps/output/files.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "core/error.hpp"
 #include "tests/apps/output/temporary_folder.hpp"
@@ -40,6 +41,16 @@ TEST(WriteWhole, NamesTheFileAndTheReasonWhenTheFolderIsMissing) {
     EXPECT_EQ(problem.what(),
               (folder / "gone" / "path.csv").string() + ": cannot be written: No such file or directory");
   }
+}
+
+// By its superuser a program may rename a file to /dev/null.
+TEST(WriteWhole, LeavesDevicesAndPipesInTheirPlaces) {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(write_whole(pipe, "text"), OutputError);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(names_in(folder.path()), Names{"pipe"});
 }
 
 TEST(WriteWhole, LeavesNoTemporaryWhenItCannotReplace) {
