@@ -124,8 +124,7 @@ std::string warning_of_walls_between_nodes(const Model& model, const Record& rec
     return fmt::format(
         "on branch {} at λ = {:.4g} {} is inside {} by {:.2g} between two nodes, which are {:.3g} apart and do not "
         "touch it: contact is at nodes, and the wall is not felt there. Give the member more elements, or a theory "
-        "whose "
-        "contacts move",
+        "whose contacts move",
         point.branch, point.lambda, deepest.member, deepest.wall, factor * deepest.depth, factor * deepest.between);
   }
   return {};
