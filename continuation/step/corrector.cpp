@@ -46,8 +46,9 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
     if (is_believed || (foretold && ratio <= 1.0) || (size <= options.stagnation && ratio > 0.1))
       return arrived(std::move(result), metric, border, wanted);
     foretold = settled;
-    const bool grows = ratio > options.divergence && size > options.small * length;
-    if (grows && result.iterations > 1) return ended(CorrectorStatus::diverged);
+    const bool is_seen = result.iterations > 1 && size > options.small * length;
+    if (is_seen && ratio > options.divergence) return ended(CorrectorStatus::diverged);
+    if (is_seen && ratio > 1.0) result.contracts = false;
     previous = size;
   }
   if (foretold || previous <= options.unsettled) {

@@ -20,6 +20,7 @@ struct CorrectorResult {
   NearNull nearest{};               ///< estimates of the eigenpairs nearest zero, at most two; none where K is singular
   int iterations = 0;
   std::optional<ConstraintRoots> roots{};  ///< of the last correction
+  bool contracts = true;                   ///< no correction was longer than the one before it, the first aside
   double unsettled = 0.0;                  ///< the last correction, where that is round-off [path metric]
   double residual = 0.0;                   ///< ‖F‖ over the load's norm at max(|λ|, load_floor) [-]
 

@@ -101,9 +101,9 @@ bool leads_aside(const Metric& metric, const PathPoint& from, const PathPoint& t
   return angle_between(metric, mean, chord) > 0.5 * angle_between(metric, a, b) + bends_back;
 }
 
-// Whether the middle of a step that λ makes long shows nothing that its ends hide: neither of its halves leads aside,
-// and its count of negative eigenvalues is none that both ends have passed. Without this a step could pass two folds
-// that take each other back, or end on a branch beside the first.
+// Whether the middle of a step shows nothing that its ends hide: neither of its halves leads aside, and its count of
+// negative eigenvalues is none that both ends have passed. Without this a step that λ makes long could pass two folds
+// that take each other back, and one whose corrections grew could end on a branch beside the first.
 bool middle_agrees(TraceTools& tools, const StepOrigin& origin, const Metric& metric, const PathPoint& end) {
   const PathPoint& from = origin.point();
   const auto middle = counted_point(tools, origin, Segment(origin.metric, from, end), 0.5);
@@ -197,6 +197,7 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   if (!result.converged() || is_stopped_by_kink(tools, origin, result, s))
     kink = step_to_kink(tools, origin, result.converged() ? result.state : moved(from.state, from.tangent, s));
   if (kink) result = std::move(kink->result);
+  const bool contracts = result.contracts;
   tried.attempt.iterations = result.iterations;
   tried.attempt.residual = result.residual;
   tried.attempt.roots = result.roots;
@@ -228,7 +229,7 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   decide_count(tools, end.point);
   // Eigenvalues that vanish behind the change have no sure sign there.
   if (end.landing && end.landing->singular) end.point.negative_eigenvalues.reset();
-  if (s > tools.options.step.max && !middle_agrees(tools, origin, metric, end.point))
+  if ((s > tools.options.step.max || !contracts) && !middle_agrees(tools, origin, metric, end.point))
     return rejected(StepOutcome::left_path);
   tried.result = std::move(end);
   return tried;
