@@ -53,11 +53,11 @@ StepOutcome outcome_of(StepVerdict::Fault fault) {
 }
 
 // In which a step's turn is measured. Where λ alone makes a step longer than `max_motion`, λ₀ is taken so great that
-// the structure's motion has an equal part in the tangent.
+// the structure's motion has an equal part in the tangent, unless it is round-off.
 Metric turning_metric(const StepOrigin& origin, double s, double max_motion) {
   const Direction& t = origin.point().tangent;
-  const double motion = std::sqrt(origin.metric.inner_x(t, t)), rate = std::abs(t.dlambda);
-  if (s <= max_motion || motion == 0.0 || rate <= motion * origin.metric.lambda_scale()) return origin.metric;
+  const double motion = std::max(std::sqrt(origin.metric.inner_x(t, t)), detector_noise), rate = std::abs(t.dlambda);
+  if (s <= max_motion || rate <= motion * origin.metric.lambda_scale()) return origin.metric;
   return {origin.metric.weights(), rate / motion};
 }
 

@@ -54,8 +54,9 @@ const std::string load_down = "load = [{ on = \"beam\", distributed = [0.0, -1.0
 
 }  // namespace
 
-// The floor bears the load where it acts but for that of half an element at each support, and nothing bends.
-TEST(Lying, ABeamThatIsPressedOnItsFloorStaysThereSlow) {
+// The floor bears the load where it acts but for that of half an element at each support, and nothing bends: what the
+// beam moves is round-off, which does not shorten steps.
+TEST(Lying, ABeamThatIsPressedOnItsFloorStaysThere) {
   for (const std::string support : {"[\"z\"]", "[\"z\", \"rotation\"]"})
     for (const std::string theory : {"euler-bernoulli", "elastica"}) {
       SCOPED_TRACE(theory + " " + support);
@@ -63,6 +64,7 @@ TEST(Lying, ABeamThatIsPressedOnItsFloorStaysThereSlow) {
                                  {"support.b = " + support, "member.beam.theory = \"" + theory + "\""});
       expect_stop(run);
       EXPECT_EQ(run.events().size(), 2U);
+      EXPECT_LE(run.points().size(), 25U);
       for (const RecordPoint& point : run.points()) {
         EXPECT_EQ(point.count.stability, Stability::stable);
         EXPECT_NEAR(point.monitors[0], 0.0, 1e-12);
