@@ -87,13 +87,11 @@ class TimedSystem final : public System {
     return inner_.guard(state, j);
   }
   Vector unit_force(const State& state, Index j) const override { return inner_.unit_force(state, j); }
-  double compliance(const ActiveSet& active_set, Index j) const override { return inner_.compliance(active_set, j); }
-  bool is_two_sided(const ActiveSet& active_set, Index j) const override { return inner_.is_two_sided(active_set, j); }
-  std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const override {
-    return inner_.multiplier_index(active_set, j);
+  Enforcement enforcement(const ActiveSet& active_set, Index j) const override {
+    return inner_.enforcement(active_set, j);
   }
-  bool leaves_stability_open(const ActiveSet& active_set) const override {
-    return inner_.leaves_stability_open(active_set);
+  CountedDirections counted_directions(const ActiveSet& active_set) const override {
+    return inner_.counted_directions(active_set);
   }
   double multiplier_scale() const override { return inner_.multiplier_scale(); }
   Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override {

@@ -42,7 +42,7 @@ struct ContactLaw {
 ///
 /// Unknowns: x, p, T, then the w of what slips, which are a border of K: its column is not its row. The guards behind
 /// those of the contacts are (μ p − T, μ p + T) of each contact that sticks, in their order.
-class MultiplierContact final : public System, public ContactQuery {
+class MultiplierContact final : public System, public FrictionalContact, public ContactQuery {
  public:
   /// `inner` must outlive this. Methods other than `rigid` need candidates with tributary lengths. Candidates whose
   /// points have no unknowns stand last; they are no contacts, but no step leads over their walls.
@@ -71,17 +71,17 @@ class MultiplierContact final : public System, public ContactQuery {
   Index guard_count(const ActiveSet& active_set) const override {
     return contact_count() + 2 * static_cast<Index>(sticking(active_set).size());
   }
-  double compliance(const ActiveSet&, Index j) const override {
-    return springs_at(j).c * scales_.force / scales_.length;
+  Enforcement enforcement(const ActiveSet& active_set, Index j) const override {
+    return {.multiplier = multiplier_index(active_set, j),
+            .compliance = springs_at(j).c * scales_.force / scales_.length,
+            .two_sided = has_opposite(j)};
   }
-  bool is_two_sided(const ActiveSet&, Index j) const override { return has_opposite(j); }
-  std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }
   Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override;
   StepVerdict check(const CheckedStep& step) const override;
   std::optional<PathKink> kink_between(const State& from, const State& to) const override;
 
-  bool has_friction() const override { return rest_friction_ != nullptr; }
+  const FrictionalContact* friction() const override { return rest_friction_ != nullptr ? this : nullptr; }
   bool is_rough(Index j) const override { return candidate(j).friction() > 0.0; }
   bool share_point(Index j, Index k) const override {
     return is_rough(j) && is_rough(k) && candidate(j).point().unknowns() == candidate(k).point().unknowns();
@@ -92,6 +92,9 @@ class MultiplierContact final : public System, public ContactQuery {
   double friction_force(const State& state, Index j) const override;
   std::optional<ModeOfContact> beyond_friction_bound(const ActiveSet& active_set, Index guard) const override;
   State with_modes(const State& state, std::span<const ModeOfContact> modes) const override;
+
+  /// The index in x of the force of a contact; empty if it is open or shares that of another.
+  std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const;
 
   /// The closed contacts that stick by friction.
   std::vector<Index> sticking(const ActiveSet& active_set) const;

@@ -166,8 +166,10 @@ Index SlidingContact::multiplier_count(const ActiveSet& active_set) const {
   return SlidingUnknowns(active_set).multipliers();
 }
 
-std::optional<Index> SlidingContact::multiplier_index(const ActiveSet& active_set, Index j) const {
-  return SlidingUnknowns(active_set).force(static_cast<std::size_t>(j));
+Enforcement SlidingContact::enforcement(const ActiveSet& active_set, Index j) const {
+  const auto contact = static_cast<std::size_t>(j);
+  return {.multiplier = SlidingUnknowns(active_set).force(contact),
+          .two_sided = sliding_layout(active_set).is_pinched(contact)};
 }
 
 // An obstacle counts as a structure that goes with it would.
@@ -229,10 +231,6 @@ Vector SlidingContact::unit_force(const State& state, Index j) const {
   return guard_gradient(state, j).dx * scales().length * scales().force;
 }
 
-bool SlidingContact::is_two_sided(const ActiveSet& active_set, Index j) const {
-  return sliding_layout(active_set).is_pinched(static_cast<std::size_t>(j));
-}
-
 Vector SlidingContact::transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const {
   const SlidingUnknowns source(from), target(to);
   const Index rest = source.size() - source.nodes - source.closed;  // of pressed nodes, moments and coordinates
@@ -244,8 +242,8 @@ Vector SlidingContact::transfer(const Vector& x, const ActiveSet& from, const Ac
   return moved;
 }
 
-bool SlidingContact::leaves_stability_open(const ActiveSet& active_set) const {
-  return !sliding_layout(active_set).neutral_spans().empty();
+CountedDirections SlidingContact::counted_directions(const ActiveSet& active_set) const {
+  return sliding_layout(active_set).neutral_spans().empty() ? CountedDirections::all : CountedDirections::some;
 }
 
 // --- changing unknowns ----------------------------------------------------------------------------------------------

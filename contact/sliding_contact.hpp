@@ -53,11 +53,10 @@ class SlidingContact final : public System, public ContactQuery {
   GuardsAlong guards_along(const State& state, const Direction& direction) const override;
   std::string watched_place(const State& state, Index j) const override { return words_of(contact(state, j).label); }
   Vector unit_force(const State& state, Index j) const override;
-  std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const override;
-  bool is_two_sided(const ActiveSet& active_set, Index j) const override;
+  Enforcement enforcement(const ActiveSet& active_set, Index j) const override;
   double multiplier_scale() const override { return scales().force; }
   Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override;
-  bool leaves_stability_open(const ActiveSet& active_set) const override;
+  CountedDirections counted_directions(const ActiveSet& active_set) const override;
 
   std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,
                                       double tolerance) const override;

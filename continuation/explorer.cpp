@@ -210,7 +210,7 @@ void Explorer::look_at(const Event& event) {
     return;  // the tracer has taken the one that `follow` wants
   }
   const bool ahead_is_stable = event.unstable_after == Index{0} && !mirror_ahead;
-  const bool nothing_is_known = system_.leaves_stability_open(point.state.active_set);
+  const bool nothing_is_known = system_.counted_directions(point.state.active_set) == CountedDirections::some;
   if (!takes_every_way() && (ahead_is_stable || nothing_is_known)) return;
 
   const std::vector<TriedWay> ways = tried_ways(system_, trace_, point, metric, options_.distance);

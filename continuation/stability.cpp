@@ -11,7 +11,7 @@ namespace arcwall {
 // n₋ = n₋(K) + n₋(T) with what a border holds (Haynsworth 1968).
 std::optional<Index> negative_eigenvalues(const Equations& system, const State& state, const BorderedSolver& solver,
                                           const Linearization& now, const NearNull& nearest) {
-  if (!system.has_stability()) return std::nullopt;
+  if (system.counted_directions(state.active_set) == CountedDirections::none) return std::nullopt;
   const Index multipliers = system.multiplier_count(state.active_set);
   if (now.B.cols() == 0) {
     const Vector weights = system.weights(state.active_set);
@@ -29,10 +29,9 @@ std::optional<Index> negative_eigenvalues(const Equations& system, const State& 
 ActiveSet strictly_active(const UnilateralSystem& system, const State& state, double force_tolerance) {
   ActiveSet active_set = state.active_set;
   for (std::size_t j = 0; j < active_set.size(); ++j) {
-    const auto contact = static_cast<Index>(j);
-    if (system.is_two_sided(state.active_set, contact)) continue;
-    const auto force = system.multiplier_index(state.active_set, contact);
-    if (force && state.x[*force] <= force_tolerance * system.multiplier_scale()) active_set[j] = 0;
+    const Enforcement how = system.enforcement(state.active_set, static_cast<Index>(j));
+    if (how.two_sided || !how.multiplier) continue;
+    if (state.x[*how.multiplier] <= force_tolerance * system.multiplier_scale()) active_set[j] = 0;
   }
   return active_set;
 }
@@ -53,7 +52,7 @@ StabilityCount StabilityCounter::count(const State& state, std::optional<Index> 
   if (unstable && *unstable == 0) count.stability = Stability::stable;
   if (negative_held && *negative_held > 0) count.stability = Stability::unstable;
   if (slipping(strong) > 1) count.stability = stability_of_slips(system_.with_active_set(state, strong));
-  if (!system_.leaves_stability_open(state.active_set)) return count;
+  if (system_.counted_directions(state.active_set) != CountedDirections::some) return count;
   return {.stability = count.stability == Stability::unstable ? Stability::unstable : Stability::undecided};
 }
 
@@ -80,7 +79,7 @@ Stability StabilityCounter::stability_of_slips(const State& state) {
 }
 
 std::optional<Index> StabilityCounter::negative_on(const State& state) {
-  if (!system_.has_stability()) return std::nullopt;
+  if (system_.counted_directions(state.active_set) == CountedDirections::none) return std::nullopt;
   if (last_ != state) remember(state, counted_on(state));
   return last_negative_;
 }

@@ -17,7 +17,8 @@ TraceTools::TraceTools(const System& from_system, TraceOptions from_options)
 bool TraceTools::ties_contact_to_nodes(const ActiveSet& active_set) const {
   for (std::size_t j = 0; j < std::min(options.node_contacts.size(), active_set.contacts()); ++j) {
     const auto contact = static_cast<Index>(j);
-    const bool is_spring = system.is_two_sided(active_set, contact) && system.compliance(active_set, contact) > 0.0;
+    const Enforcement how = system.enforcement(active_set, contact);
+    const bool is_spring = how.two_sided && how.compliance > 0.0;
     if (options.node_contacts[j] && active_set[j] && !is_spring) return true;
   }
   return false;

@@ -7,6 +7,13 @@
 
 namespace arcwall {
 
+/// Which unstable directions of a system the negative eigenvalues of K count.
+enum class CountedDirections {
+  all,
+  some,  ///< the second variation vanishes in others, so that stability is indeterminate
+  none,  ///< no branch points are searched for either; an example is the equations of an event that is followed
+};
+
 /// Defines equilibrium equations F(x, λ) = 0 that are smooth for each active set: the first of three levels of a
 /// system.
 ///
@@ -50,9 +57,8 @@ class Equations {
   /// adds one negative eigenvalue to K, which the stability count leaves out.
   virtual Index multiplier_count(const ActiveSet&) const { return 0; }
 
-  /// Returns true if the negative eigenvalues of K count unstable directions. If false, the tracer neither counts them
-  /// nor searches for branch points; an example is the equations of an event that is followed.
-  virtual bool has_stability() const { return true; }
+  /// Returns which unstable directions the negative eigenvalues of K count.
+  virtual CountedDirections counted_directions(const ActiveSet&) const { return CountedDirections::all; }
 };
 
 }  // namespace arcwall

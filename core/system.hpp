@@ -1,11 +1,9 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "core/contact_mode.hpp"
 #include "core/path_kink.hpp"
 #include "core/step_verdict.hpp"
 #include "core/unilateral_system.hpp"
@@ -57,37 +55,6 @@ class System : public UnilateralSystem {
     for (std::size_t k = 0; k < active_set.contacts(); ++k) closed += active_set[k] != 0 ? 1 : 0;
     return closed;
   }
-
-  /// Returns true if a contact may have friction. Active sets then say what each contact does (mode()), the guards
-  /// behind those of the contacts are the bounds of sticking contacts, μ p − |T| ≥ 0, and slips end where slip_rate()
-  /// vanishes. A system with friction overrides the functions below.
-  virtual bool has_friction() const { return false; }
-
-  /// Returns true if contact j has friction where it is closed.
-  virtual bool is_rough(Index /*j*/) const { return false; }
-
-  /// Returns true if two contacts with friction are of one point of the structure.
-  virtual bool share_point(Index /*j*/, Index /*k*/) const { return false; }
-
-  /// Returns what a contact does on an active set.
-  virtual ContactMode mode(const ActiveSet& active_set, Index j) const {
-    return active_set[static_cast<std::size_t>(j)] ? ContactMode::closed : ContactMode::open;
-  }
-
-  /// Returns how fast a slipping contact slips in its own sense [length scale a unit of the direction]: ≥ 0 while the
-  /// slip lasts.
-  virtual double slip_rate(const State&, const Direction&, Index /*j*/) const { return 0.0; }
-
-  /// Returns the friction force T of a contact along the obstacle's tangent, on the structure [force].
-  virtual double friction_force(const State&, Index /*j*/) const { return 0.0; }
-
-  /// Returns the contact that reaches a bound of friction, and what it does beyond. Empty for other guards.
-  virtual std::optional<ModeOfContact> beyond_friction_bound(const ActiveSet&, Index /*guard*/) const {
-    return std::nullopt;
-  }
-
-  /// Returns the same equilibrium with contacts in other modes. A contact that begins to stick is held where it is.
-  virtual State with_modes(const State& state, std::span<const ModeOfContact>) const { return state; }
 
   /// Returns the active set whose guards fit a state reached along another branch: for example a buckled contact zone.
   virtual ActiveSet canonical_active_set(const State& state) const { return state.active_set; }

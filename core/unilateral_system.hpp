@@ -6,12 +6,20 @@
 #include <vector>
 
 #include "core/equations.hpp"
+#include "core/frictional_contact.hpp"
 
 namespace arcwall {
 
 /// Stores the values of all guards at a state and their derivatives along a direction.
 struct GuardsAlong {
   Vector values{}, rates{};
+};
+
+/// How a contact is enforced.
+struct Enforcement {
+  std::optional<Index> multiplier{};  ///< of its force in x; empty: it is open, or shares the force of another contact
+  double compliance = 0.0;            ///< gap = −compliance · force [scale of guards]; 0 if rigid
+  bool two_sided = false;             ///< closed for either sign of its force: its guard never vanishes
 };
 
 /// Adds unilateral constraints to the equations: the second of three levels of a system.
@@ -23,7 +31,7 @@ struct GuardsAlong {
 /// A kink of a piecewise linear law is a compliant contact: its gap is the deformation left up to the kink, its force
 /// the deformation beyond it, its compliance 1. It has no multiplier.
 ///
-/// A system with contacts overrides open_active_set, guards, guard_gradient, unit_force, multiplier_index, transfer and
+/// A system with contacts overrides open_active_set, guards, guard_gradient, unit_force, enforcement, transfer and
 /// multiplier_count. guard_gradient() is the derivative of guards(); guard() and guards_along() agree with both. A
 /// force enters F by the gradient of its gap, so K stays symmetric. transfer() there and back returns the same x if
 /// the omitted forces are zero.
@@ -60,14 +68,8 @@ class UnilateralSystem : public Equations {
   /// contact.
   virtual Vector unit_force(const State& state, Index) const { return Vector::Zero(state.x.size()); }
 
-  /// Returns the compliance of a closed contact, in the scale of the guards: gap = −compliance · force. 0 if rigid.
-  virtual double compliance(const ActiveSet&, Index) const { return 0.0; }
-
-  /// Returns true if the contact is bilateral: closed for either sign of its force. Its guard never vanishes.
-  virtual bool is_two_sided(const ActiveSet&, Index) const { return false; }
-
-  /// Returns the index in x of a contact force. Empty if the contact is open or shares the force of another contact.
-  virtual std::optional<Index> multiplier_index(const ActiveSet&, Index) const { return std::nullopt; }
+  /// Returns how contact j is enforced on an active set.
+  virtual Enforcement enforcement(const ActiveSet&, Index /*j*/) const { return {}; }
 
   /// Returns the value in x of a contact force whose guard is 1 [force].
   virtual double multiplier_scale() const { return 1.0; }
@@ -75,12 +77,15 @@ class UnilateralSystem : public Equations {
   /// Returns x for another active set of the same layout; new contact forces are zero. Also valid for directions.
   virtual Vector transfer(const Vector& x, const ActiveSet& /*from*/, const ActiveSet& /*to*/) const { return x; }
 
-  /// Returns the contacts that slip on an active set, by friction (System::has_friction()).
-  virtual std::vector<Index> slipping(const ActiveSet&) const { return {}; }
+  /// Returns the friction of the contacts; null if none has friction.
+  virtual const FrictionalContact* friction() const { return nullptr; }
 
-  /// Returns true if the second variation vanishes in some directions, so stability is indeterminate. The eigenvalues
-  /// then count the other directions.
-  virtual bool leaves_stability_open(const ActiveSet&) const { return false; }
+  bool has_friction() const { return friction() != nullptr; }
+
+  /// Returns the contacts that slip on an active set.
+  std::vector<Index> slipping(const ActiveSet& active_set) const {
+    return has_friction() ? friction()->slipping(active_set) : std::vector<Index>{};
+  }
 
   /// Returns the same state with another active set of the same layout.
   State with_active_set(const State& state, const ActiveSet& active_set) const {

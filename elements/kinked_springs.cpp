@@ -191,17 +191,9 @@ Vector KinkedSprings::unit_force(const State& state, Index j) const {
   return -at->jump * at->width * stretch_gradient(*at, state).dx;
 }
 
-double KinkedSprings::compliance(const ActiveSet& active_set, Index j) const {
-  return kink(active_set, j) != nullptr ? 1.0 : inner_.compliance(active_set, inner_number(active_set, j));
-}
-
-bool KinkedSprings::is_two_sided(const ActiveSet& active_set, Index j) const {
-  return kink(active_set, j) == nullptr && inner_.is_two_sided(active_set, inner_number(active_set, j));
-}
-
-std::optional<Index> KinkedSprings::multiplier_index(const ActiveSet& active_set, Index j) const {
-  if (kink(active_set, j) != nullptr) return std::nullopt;
-  return inner_.multiplier_index(active_set, inner_number(active_set, j));
+Enforcement KinkedSprings::enforcement(const ActiveSet& active_set, Index j) const {
+  if (kink(active_set, j) != nullptr) return {.compliance = 1.0};
+  return inner_.enforcement(active_set, inner_number(active_set, j));
 }
 
 // A change of the mesh keeps to the pieces of the laws.

@@ -53,7 +53,9 @@ class KinkedSprings final : public System {
     return inner_.squared_motion_by_lambda(active_set);
   }
   Index multiplier_count(const ActiveSet& active_set) const override { return inner_.multiplier_count(active_set); }
-  bool has_stability() const override { return inner_.has_stability(); }
+  CountedDirections counted_directions(const ActiveSet& active_set) const override {
+    return inner_.counted_directions(active_set);
+  }
 
   ActiveSet open_active_set() const override;
   Index guard_count(const ActiveSet& active_set) const override {
@@ -65,15 +67,10 @@ class KinkedSprings final : public System {
   GuardsAlong guards_along(const State& state, const Direction& direction) const override;
   std::string watched_place(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
-  double compliance(const ActiveSet& active_set, Index j) const override;
-  bool is_two_sided(const ActiveSet& active_set, Index j) const override;
-  std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const override;
+  Enforcement enforcement(const ActiveSet& active_set, Index j) const override;
   double multiplier_scale() const override { return inner_.multiplier_scale(); }
   Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override {
     return inner_.transfer(x, from, to);
-  }
-  bool leaves_stability_open(const ActiveSet& active_set) const override {
-    return inner_.leaves_stability_open(active_set);
   }
 
   std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,
@@ -85,6 +82,7 @@ class KinkedSprings final : public System {
   std::optional<PathKink> kink_between(const State& from, const State& to) const override {
     return inner_.kink_between(from, to);
   }
+  Index separate_contacts(const ActiveSet& active_set) const override { return inner_.separate_contacts(active_set); }
   ActiveSet canonical_active_set(const State& state) const override {
     return inner_.canonical_active_set(state).with_kinks_of(state.active_set);
   }

@@ -53,7 +53,7 @@ class CompliantContact final : public System, public ContactQuery {
   double guard(const State& state, Index j) const override;
   Row guard_gradient(const State& state, Index j) const override;
   std::string watched_place(const State& state, Index j) const override;
-  double compliance(const ActiveSet&, Index) const override { return 1.0; }
+  Enforcement enforcement(const ActiveSet&, Index) const override { return {.compliance = 1.0}; }
   StepVerdict check(const CheckedStep& step) const override;
   std::optional<PathKink> kink_between(const State& from, const State& to) const override;
 

@@ -36,7 +36,7 @@ std::optional<ActiveSet> changed_active_set(const UnilateralSystem& system, cons
     closed = closed == 0 ? 1 : 0;
   };
   for (Index j = 0; j < static_cast<Index>(active_set.size()); ++j) {
-    if (!(guards[j] < -guard_violated) || system.is_two_sided(state.active_set, j)) continue;
+    if (!(guards[j] < -guard_violated) || system.enforcement(state.active_set, j).two_sided) continue;
     if (!worst || guards[j] < guards[*worst]) worst = j;
     if (all) toggle(j);
   }

@@ -78,7 +78,7 @@ class EventSystem final : public System {
   double energy(const State& state) const override;
   Vector weights(const ActiveSet& active_set) const override;
   Index multiplier_count(const ActiveSet& active_set) const override;
-  bool has_stability() const override { return false; }
+  CountedDirections counted_directions(const ActiveSet&) const override { return CountedDirections::none; }
 
   Index guard_count(const ActiveSet& active_set) const override;
   Vector guards(const State& state) const override;

@@ -100,7 +100,7 @@ std::optional<ActiveSet> HeldMinimum::next_active_set(const State& state, int ch
   ActiveSet active_set = state.active_set;
   std::optional<Index> worst;
   for (Index j = 0; j < static_cast<Index>(active_set.size()); ++j) {
-    if (!(guards[j] < -contact_violated) || system_.is_two_sided(state.active_set, j)) continue;
+    if (!(guards[j] < -contact_violated) || system_.enforcement(state.active_set, j).two_sided) continue;
     if (!worst || guards[j] < guards[*worst]) worst = j;
     if (change < changes_at_once) toggle(active_set, j);
   }

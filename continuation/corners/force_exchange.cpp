@@ -20,9 +20,10 @@ std::optional<ForceExchange> exchange_forces(TraceTools& tools, const State& sta
   std::optional<Index> released;
   double force = 0.0;  // of the new contact, in the scale of guards
   for (Index i = 0; i < static_cast<Index>(state.active_set.contacts()); ++i) {
-    const auto k = system.multiplier_index(state.active_set, i);
-    if (!k || system.is_two_sided(state.active_set, i) || rates(*k, 0) >= 0.0) continue;
-    const double vanishes_at = state.x[*k] / -rates(*k, 0);
+    const Enforcement how = system.enforcement(state.active_set, i);
+    if (!how.multiplier || how.two_sided || rates(*how.multiplier, 0) >= 0.0) continue;
+    const Index k = *how.multiplier;
+    const double vanishes_at = state.x[k] / -rates(k, 0);
     if (released && vanishes_at >= force) continue;
     released = i;
     force = vanishes_at;
@@ -36,9 +37,9 @@ std::optional<ForceExchange> exchange_forces(TraceTools& tools, const State& sta
   ActiveSet with_new = state.active_set;
   with_new[j] = 1;
   ForceExchange exchange{.state = system.with_active_set(changed, with_new), .released = *released};
-  if (const auto k = system.multiplier_index(with_new, closing))
+  if (const auto k = system.enforcement(with_new, closing).multiplier)
     exchange.state.x[*k] = force * system.multiplier_scale();
-  if (const auto k = system.multiplier_index(with_new, *released)) exchange.state.x[*k] = 0.0;
+  if (const auto k = system.enforcement(with_new, *released).multiplier) exchange.state.x[*k] = 0.0;
   return exchange;
 }
 

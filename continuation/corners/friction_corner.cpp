@@ -59,16 +59,17 @@ std::vector<BoundContact> choices_at(const TraceTools& tools, const Corner& corn
                                      std::optional<Index> ended) {
   using enum ContactMode;
   const System& system = tools.system;
+  const FrictionalContact& friction = *system.friction();
   const ActiveSet& active_set = corner.at.state.active_set;
   const double tolerance = bound_tolerance(tools, corner);
   std::vector<BoundContact> choices;
   const auto contacts = static_cast<Index>(active_set.contacts());
   for (Index j = 0; j < contacts; ++j) {
-    const ContactMode mode = system.mode(active_set, j);
+    const ContactMode mode = friction.mode(active_set, j);
     const bool touches = std::abs(corner.at.guards[j]) <= tolerance || landed == j;
-    if (touches && !system.is_two_sided(active_set, j)) {
+    if (touches && !system.enforcement(active_set, j).two_sided) {
       std::vector<ContactMode> modes =
-          system.is_rough(j) ? std::vector{sticks, open, slips_forward, slips_backward} : std::vector{closed, open};
+          friction.is_rough(j) ? std::vector{sticks, open, slips_forward, slips_backward} : std::vector{closed, open};
       if (mode != open) std::swap(modes[0], modes[1]);
       choices.push_back({.contact = j, .modes = std::move(modes), .touches = true});
     } else if (slips(mode) && ended == j) {
@@ -79,7 +80,7 @@ std::vector<BoundContact> choices_at(const TraceTools& tools, const Corner& corn
   }
   for (Index guard = contacts; guard < corner.at.guards.size(); ++guard) {
     if (!is_reached(corner.at.guards[guard], corner.at.guard_rates[guard], tolerance) && landed != guard) continue;
-    const auto beyond = system.beyond_friction_bound(active_set, guard);
+    const auto beyond = friction.beyond_friction_bound(active_set, guard);
     const auto known = [&](const BoundContact& choice) { return choice.contact == beyond->contact; };
     if (beyond && std::none_of(choices.begin(), choices.end(), known))
       choices.push_back({.contact = beyond->contact, .modes = {sticks, beyond->mode}});
@@ -91,8 +92,9 @@ std::vector<BoundContact> choices_at(const TraceTools& tools, const Corner& corn
 // singular.
 std::optional<Continuation> tangent_with(TraceTools& tools, const Corner& corner, std::vector<ModeOfContact> modes) {
   const System& system = tools.system;
+  const FrictionalContact& friction = *system.friction();
   Continuation way{.modes = std::move(modes)};
-  way.state = system.with_modes(corner.at.state, way.modes);
+  way.state = friction.with_modes(corner.at.state, way.modes);
   auto& [now, solver] = tools.corner_workspace;
   system.linearize(way.state, now);
   if (!all_finite(now.F)) return std::nullopt;
@@ -105,7 +107,7 @@ std::optional<Continuation> tangent_with(TraceTools& tools, const Corner& corner
   if (!solver.tangent(metric.row(across), way.direction, columns)) return std::nullopt;
   way.direction = unit(metric, std::move(way.direction));
   if (!way.direction.dx.allFinite()) return std::nullopt;
-  way.slipping = system.slipping(way.state.active_set);
+  way.slipping = friction.slipping(way.state.active_set);
   way.relieved = Vector::Zero(now.B.cols());
   if (now.B.cols() > 0 && solver.inner_is_regular())
     way.relieved = slip_stiffness(solver, now).diagonal().cwiseProduct(way.direction.dx.tail(now.B.cols())).cwiseAbs() /
@@ -117,9 +119,10 @@ int sign_of_rate(double value) { return value > 0.0 ? 1 : value < 0.0 ? -1 : 0; 
 
 // 1 where a contact slips on along a way, −1 where it would slip back, 0 where it does neither within the error of
 // rates. A stiff body slips by less than the error of other motions; then what its slip alone relieves tells.
-int sense_of_slip(const System& system, const Continuation& way, Index contact, double no_motion, double no_force) {
+int sense_of_slip(const FrictionalContact& friction, const Continuation& way, Index contact, double no_motion,
+                  double no_force) {
   const auto its = std::find(way.slipping.begin(), way.slipping.end(), contact) - way.slipping.begin();
-  const double rate = system.slip_rate(way.state, way.direction, contact);
+  const double rate = friction.slip_rate(way.state, way.direction, contact);
   if (std::abs(rate) <= no_motion && way.relieved[its] <= no_force) return 0;
   return sign_of_rate(rate);
 }
@@ -131,6 +134,7 @@ std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& cor
                                       const std::set<Index>& overcome) {
   using enum ContactMode;
   const System& system = tools.system;
+  const FrictionalContact& friction = *system.friction();
   const ActiveSet& active_set = way.state.active_set;
   const auto contacts = static_cast<Index>(active_set.contacts());
   const GuardsAlong along = system.guards_along(way.state, way.direction);
@@ -141,18 +145,18 @@ std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& cor
     most = std::max(most, std::abs(along.rates[j]));
   }
   for (const Index j : way.slipping)
-    most_motion = std::max(most_motion, std::abs(system.slip_rate(way.state, way.direction, j)));
+    most_motion = std::max(most_motion, std::abs(friction.slip_rate(way.state, way.direction, j)));
   const double no_motion = rate_noise * most_motion, no_force = rate_noise * most_force;
   std::vector<ModeOfContact> found;
   for (const BoundContact& choice : choices) {
     const Index j = choice.contact;
-    const ContactMode mode = system.mode(active_set, j);
+    const ContactMode mode = friction.mode(active_set, j);
     const double rate = along.rates[j];
     if (mode == open && rate < -no_motion)
-      found.push_back({.contact = j, .mode = system.is_rough(j) ? sticks : closed});
+      found.push_back({.contact = j, .mode = friction.is_rough(j) ? sticks : closed});
     else if (mode != open && choice.touches && rate < -no_force)
       found.push_back({.contact = j, .mode = open});
-    else if (slips(mode) && sense_of_slip(system, way, j, no_motion, no_force) < (overcome.contains(j) ? 0 : 1))
+    else if (slips(mode) && sense_of_slip(friction, way, j, no_motion, no_force) < (overcome.contains(j) ? 0 : 1))
       found.push_back({.contact = j, .mode = sticks});
   }
   const double tolerance = bound_tolerance(tools, corner);
@@ -160,7 +164,7 @@ std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& cor
     if (!is_reached(along.values[guard], along.rates[guard], tolerance) ||
         along.rates[guard] >= -tools.options.guard_tolerance * most_force)
       continue;
-    const auto beyond = system.beyond_friction_bound(active_set, guard);
+    const auto beyond = friction.beyond_friction_bound(active_set, guard);
     const auto has_ended = [&](const BoundContact& choice) {
       return choice.ended && choice.contact == beyond->contact;
     };
@@ -170,11 +174,11 @@ std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& cor
 }
 
 // −Σ T v, v the rate of slip.
-double dissipation_along(const System& system, const Continuation& way) {
+double dissipation_along(const FrictionalContact& friction, const Continuation& way) {
   double power = 0.0;
   for (const Index j : way.slipping) {
-    const double sense = slip_sense(system.mode(way.state.active_set, j));
-    power -= system.friction_force(way.state, j) * sense * system.slip_rate(way.state, way.direction, j);
+    const double sense = slip_sense(friction.mode(way.state.active_set, j));
+    power -= friction.friction_force(way.state, j) * sense * friction.slip_rate(way.state, way.direction, j);
   }
   return power;
 }
@@ -288,14 +292,15 @@ bool unloads(const Continuation& way, const std::vector<BoundContact>& choices, 
 }
 
 // Whether two walls would hold one point by friction: four forces, of which equilibrium determines two.
-bool would_hold_twice(const System& system, const ActiveSet& active_set, const std::vector<BoundContact>& choices) {
+bool would_hold_twice(const FrictionalContact& friction, const ActiveSet& active_set,
+                      const std::vector<BoundContact>& choices) {
   const auto touches = [&](Index j) {
-    return system.mode(active_set, j) != ContactMode::open ||
+    return friction.mode(active_set, j) != ContactMode::open ||
            std::any_of(choices.begin(), choices.end(), [j](const BoundContact& other) { return other.contact == j; });
   };
   for (const BoundContact& choice : choices)
     for (Index j = 0; j < static_cast<Index>(active_set.contacts()); ++j)
-      if (choice.touches && j != choice.contact && system.share_point(j, choice.contact) && touches(j)) return true;
+      if (choice.touches && j != choice.contact && friction.share_point(j, choice.contact) && touches(j)) return true;
   return false;
 }
 
@@ -305,7 +310,7 @@ std::string event_place(const TraceTools& tools, const Corner& corner, const std
 
 std::vector<Event> events_between(const TraceTools& tools, const Corner& corner, const PathPoint& behind,
                                   const Event& event) {
-  const System& system = tools.system;
+  const FrictionalContact& friction = *tools.system.friction();
   const ActiveSet &old = corner.at.state.active_set, &now = behind.state.active_set;
   std::vector<Event> events;
   for (const EventKind kind :
@@ -313,7 +318,7 @@ std::vector<Event> events_between(const TraceTools& tools, const Corner& corner,
     Event changes = event;
     changes.kind = kind;
     for (Index j = 0; j < static_cast<Index>(now.contacts()); ++j) {
-      const ContactMode before = system.mode(old, j), after = system.mode(now, j);
+      const ContactMode before = friction.mode(old, j), after = friction.mode(now, j);
       const bool stays_closed = before != ContactMode::open && after != ContactMode::open && before != after;
       if ((kind == EventKind::contact_closes && before == ContactMode::open && after != ContactMode::open) ||
           (kind == EventKind::contact_opens && before != ContactMode::open && after == ContactMode::open) ||
@@ -341,23 +346,24 @@ CorrectorResult held_at_corner(TraceTools& tools, const Corner& corner, const Me
 // hold the place at which it is met.
 void meet_bounds(TraceTools& tools, Corner& corner) {
   const System& system = tools.system;
+  const FrictionalContact& friction = *system.friction();
   const ActiveSet& active_set = corner.at.state.active_set;
   std::vector<ModeOfContact> at_bound, again;
   for (auto guard = static_cast<Index>(active_set.contacts()); guard < corner.at.guards.size(); ++guard) {
     if (corner.at.guards[guard] >= -tools.options.guard_tolerance) continue;
-    if (const auto beyond = system.beyond_friction_bound(active_set, guard)) {
+    if (const auto beyond = friction.beyond_friction_bound(active_set, guard)) {
       at_bound.push_back(*beyond);
       again.push_back({.contact = beyond->contact, .mode = ContactMode::sticks});
     }
   }
   if (at_bound.empty()) return;
-  const State start = system.with_modes(corner.at.state, at_bound);
+  const State start = friction.with_modes(corner.at.state, at_bound);
   const Metric metric = tools.metric_on(start.active_set, corner.lambda_scale);
   const Direction along = unit(metric, {.dx = system.transfer(corner.at.tangent.dx, active_set, start.active_set),
                                         .dlambda = corner.at.tangent.dlambda});
   const CorrectorResult met = held_at_corner(tools, corner, metric, start, along);
   if (!met.converged()) return;
-  corner.at.state = system.with_modes(met.state, again);
+  corner.at.state = friction.with_modes(met.state, again);
   corner.at.guards = system.guards(corner.at.state);
 }
 
@@ -365,14 +371,15 @@ void meet_bounds(TraceTools& tools, Corner& corner) {
 
 std::vector<EventDetector> slip_end_detectors(const System& system) {
   std::vector<EventDetector> detectors;
-  if (!system.has_friction()) return detectors;
+  const FrictionalContact* const friction = system.friction();
+  if (friction == nullptr) return detectors;
   const auto contacts = static_cast<Index>(system.open_active_set().contacts());
   for (Index j = 0; j < contacts; ++j) {
-    if (!system.is_rough(j)) continue;
-    const auto rate = [&system, j](const PathPoint& at) { return system.slip_rate(at.state, at.tangent, j); };
+    if (!friction->is_rough(j)) continue;
+    const auto rate = [friction, j](const PathPoint& at) { return friction->slip_rate(at.state, at.tangent, j); };
     // The place is an unknown, so that the rate along the unknowns themselves is the slip.
-    const auto slip = [&system, j](const PathPoint& at) {
-      return system.slip_rate(at.state, {.dx = at.state.x, .dlambda = 0.0}, j);
+    const auto slip = [friction, j](const PathPoint& at) {
+      return friction->slip_rate(at.state, {.dx = at.state.x, .dlambda = 0.0}, j);
     };
     detectors.push_back({.kind = EventKind::contact_sticks,
                          .label = std::to_string(j),
@@ -402,7 +409,7 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
                   .detail = with_place("the contacts change again and again at one point; use more elements", place)};
     return passed;
   }
-  if (would_hold_twice(tools.system, corner.at.state.active_set, choices)) {
+  if (would_hold_twice(*tools.system.friction(), corner.at.state.active_set, choices)) {
     passed.end = {.reason = EndReason::not_modelled,
                   .detail = with_place("two frictions at one end are not determined by equilibrium", place)};
     return passed;
@@ -458,7 +465,7 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
   std::size_t chosen = 0;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     Continuation& way = ways[i];
-    way.dissipation = dissipation_along(tools.system, way);
+    way.dissipation = dissipation_along(*tools.system.friction(), way);
     const bool goes_on = way.direction.dlambda * sense > 0.0;
     const FrictionRank rank{.turns_over = turns_over(way),
                             .kind = !goes_on                   ? 2

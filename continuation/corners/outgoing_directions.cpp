@@ -39,7 +39,7 @@ bool add_gap_rates(const UnilateralSystem& system, const std::vector<Index>& deg
     problem.a[i] = apply(gap, problem.free_rate);
     for (Index j = 0; j < w; ++j) problem.M(i, j) = apply(gap, problem.response[static_cast<std::size_t>(j)]);
     if (!problem.held[static_cast<std::size_t>(i)])
-      problem.M(i, i) += system.compliance(problem.open.active_set, contact);
+      problem.M(i, i) += system.enforcement(problem.open.active_set, contact).compliance;
   }
   return problem.a.allFinite() && problem.M.allFinite();
 }
@@ -72,7 +72,7 @@ std::optional<RateProblem> reduce_by_gap(const UnilateralSystem& system, RatePro
 
 // The force of an open contact, or the change of the equation of one that is held, by which its guard changes by one.
 Vector unit_cause(const UnilateralSystem& system, const State& corner, const State& open, Index contact) {
-  const auto force = system.multiplier_index(open.active_set, contact);
+  const auto force = system.enforcement(open.active_set, contact).multiplier;
   if (!force) return system.unit_force(open, contact);
   const State all_open = system.with_active_set(corner, corner.active_set.all_open());
   const double length = system.unit_force(all_open, contact).norm() /
@@ -287,7 +287,7 @@ std::vector<OutgoingDirection> direction_of(const UnilateralSystem& system, cons
   way.direction.dlambda = motion.dlambda;
   way.direction.dx = system.transfer(motion.dx, problem.open.active_set, way.active_set);
   for (Index i = 0; i < p.size(); ++i)
-    if (const auto k = system.multiplier_index(way.active_set, degenerate[static_cast<std::size_t>(i)]))
+    if (const auto k = system.enforcement(way.active_set, degenerate[static_cast<std::size_t>(i)]).multiplier)
       way.direction.dx[*k] = p[i] * system.multiplier_scale();
   return {std::move(way)};
 }

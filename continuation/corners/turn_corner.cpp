@@ -56,8 +56,8 @@ State state_of_event(const System& system, const Corner& corner, const PathPoint
   ActiveSet smooth = now;
   for (std::size_t j = 0; j < now.contacts(); ++j) {
     const auto contact = static_cast<Index>(j);
-    if (now[j] != 0 && old[j] == 0 && system.compliance(now, contact) > 0.0 && !system.multiplier_index(now, contact))
-      smooth[j] = 0;
+    const Enforcement how = system.enforcement(now, contact);
+    if (now[j] != 0 && old[j] == 0 && how.compliance > 0.0 && !how.multiplier) smooth[j] = 0;
   }
   return smooth == now ? behind.state : system.with_active_set(behind.state, smooth);
 }

@@ -28,7 +28,9 @@ SingularSearch find_before_singular_end(TraceTools& tools, const StepOrigin& ori
 SingularSearch find_singular(TraceTools& tools, const StepOrigin& origin, const PathPoint& to) {
   const Segment segment(origin.metric, origin.point(), to);
   if (hides_two_zeros(tools.detectors, segment, -detector_noise)) return {.clear = false};
-  if (tools.options.events != EventSearch::locate || !tools.system.has_stability()) return {};
+  if (tools.options.events != EventSearch::locate ||
+      tools.system.counted_directions(origin.point().state.active_set) == CountedDirections::none)
+    return {};
   SingularSearch touching = find_touching_limit(tools, origin, segment);
   if (!touching.clear || !touching.points.empty()) return touching;
   if (!origin.from.negative_eigenvalues) return {};

@@ -213,7 +213,7 @@ TEST(MultiplierContact, APenaltySpringHasItsTributaryLength) {
     state.x[k] = -50.0 * length * system.candidate(j).gap(state);
     system.residual(state, F);
     EXPECT_NEAR(F[k], 0.0, 1e-13);
-    EXPECT_DOUBLE_EQ(system.compliance(system.open_active_set(), j),
+    EXPECT_DOUBLE_EQ(system.enforcement(system.open_active_set(), j).compliance,
                      system.scales().force / system.scales().length / (50.0 * length));
   }
 }

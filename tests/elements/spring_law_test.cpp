@@ -178,7 +178,7 @@ TEST(KinkedSprings, AreSmoothOnEachPiece) {
       system.residual(without, F_off);
       system.residual(with, F_on);
       EXPECT_LE((F_on - F_off + system.guard(with, j) * system.unit_force(without, j)).norm(), 1e-13);
-      EXPECT_NEAR(system.guard(without, j), -system.compliance(on, j) * system.guard(with, j), 1e-15);
+      EXPECT_NEAR(system.guard(without, j), -system.enforcement(on, j).compliance * system.guard(with, j), 1e-15);
     }
   }
 }

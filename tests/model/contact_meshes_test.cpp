@@ -237,4 +237,38 @@ TEST(ContactMeshes, WhereATouchIsForeseenDoesNotMatterBesidePartsOfAboutOneLengt
   }
 }
 
+// A spring whose law has kinks numbers the contacts anew. A zone stays one contact beside it: what spreads is not told
+// as splitting. The spring is so soft that loads are those without it.
+TEST(ContactMeshes, AZoneIsOneContactBesideASpringWithKinks) {
+  const std::string column = R"toml(
+title = "Column below a wall"
+material.m = { E = 21000.0 }
+section.s = { shape = "rectangle", width = 1.0, height = 0.1 }
+point = { a = [0.0, 0.0], b = [10.0, 0.0] }
+support = { a = ["x", "z", "rotation"], b = ["z", "rotation"] }
+load = [{ at = "b", force = [-1.0, 0.0] }]
+wall = [{ name = "up", side = "above", contact_surface = "axis", profile = { type = "flat", z = 0.2 } }]
+path = { step = 0.1, stop = { lambda = [-1.0, 3.0] } }
+monitor = [{ name = "mid", at = "m:0.5", component = "z" }]
+[member.m]
+from = "a"
+to = "b"
+theory = "elastica"
+material = "m"
+section = "s"
+elements = 40
+imperfection = { shape = "sine", amplitude = 0.01, waves = 1 }
+)toml";
+  const std::string spring = R"toml(
+[[spring]]
+name = "soft"
+at = "b"
+law = { direction = "x", displacement = [-1.0, -0.01, 0.0, 1.0], force = [-1e-6, -2e-9, 0.0, 1e-7], interpolation = "linear" }
+)toml";
+  const Session without = test::traced(column), with = test::traced(column + spring);
+  for (const EventKind kind : {EventKind::contact_closes, EventKind::contact_spreads})
+    EXPECT_NEAR(test::event_of(with.record(), kind).lambda, test::event_of(without.record(), kind).lambda, 1e-5);
+  EXPECT_EQ(with.events().size(), without.events().size());
+}
+
 }  // namespace arcwall::contact_meshes_test

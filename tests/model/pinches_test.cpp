@@ -186,7 +186,7 @@ TEST_P(PinchesOfBothKinds, DerivativesAreConsistent) {
       column(0.4, "path = { step = 5.0, stop = { lambda = [-1.0, 1.0] } }", GetParam()), "deck.toml", {}));
   std::string reason;
   State state = *model.start(reason);
-  EXPECT_TRUE(model.system().is_two_sided(state.active_set, 0));
+  EXPECT_TRUE(model.system().enforcement(state.active_set, 0).two_sided);
   EXPECT_EQ(state.active_set.closed_count(), 1);
   for (Index i = 0; i + 1 < state.x.size(); ++i) state.x[i] += 1e-3 * std::sin(1.0 + 7.0 * double(i));
   state.lambda = 3.0;

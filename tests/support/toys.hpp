@@ -243,7 +243,10 @@ struct LinearContactToy : System {
     force.head(A.rows()) = G.row(j).transpose();
     return force;
   }
-  std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const override {
+  Enforcement enforcement(const ActiveSet& active_set, Index j) const override {
+    return {.multiplier = multiplier_index(active_set, j)};
+  }
+  std::optional<Index> multiplier_index(const ActiveSet& active_set, Index j) const {
     if (!active_set[static_cast<std::size_t>(j)]) return std::nullopt;
     Index k = A.rows();
     for (Index i = 0; i < j; ++i) k += active_set[static_cast<std::size_t>(i)] ? 1 : 0;
