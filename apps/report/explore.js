@@ -19,6 +19,7 @@ let numbers = [];          // those of `numbers_of`, each with its key, unit, va
 let numbers_of = null;     // a text
 let first_numbers = null;  // of the deck as it was read, by their keys
 let undone = [];           // texts, the last change last
+let dragged_from = null;   // the text before the drag of a slider that is under way
 const shown = new Map();   // keys of sliders, in their order, with the parts of the page
 
 // Columns count characters, as the program does.
@@ -67,7 +68,6 @@ const rounded = (value, step) => Number((Math.round(value / step) * step).toPrec
 const add_slider = (key) => {
   const number = number_at(key);
   if (!number || shown.has(key)) return;
-  let before = null;  // the text before a drag
   const name = made('label', { textContent: key, htmlFor: `field ${key}` });
   if (number.unit !== '') name.append(made('span', { className: 'unit', textContent: ` [${number.unit}]` }));
   const field = made('input', { type: 'text', inputMode: 'decimal', id: `field ${key}` });
@@ -91,7 +91,7 @@ const add_slider = (key) => {
   const change = (value) => {
     const now = number_at(key);
     if (!now || String(now.value) === value) return;
-    before ??= text;
+    dragged_from ??= text;
     set_number(now, value);
     trace_next();
   };
@@ -100,15 +100,16 @@ const add_slider = (key) => {
     change(field.value);
   });
   slider.addEventListener('change', () => {
-    if (before !== null) remember(before);
-    before = null;
+    if (dragged_from !== null) remember(dragged_from);
+    dragged_from = null;
+    if (text === traced) report?.draw_curve();
     trace_now();
   });
   field.addEventListener('change', () => {
     if (field.value.trim() === '' || !Number.isFinite(Number(field.value))) return show_number(false);
     const was = text;
     change(String(Number(field.value)));
-    before = null;
+    dragged_from = null;
     slider.value = field.value;
     if (text !== was) remember(was);
     trace_now();
@@ -132,7 +133,7 @@ const add_slider = (key) => {
   const choose = (value) => {
     const was = text;
     change(value);
-    before = null;
+    dragged_from = null;
     show_number(false);
     if (text !== was) remember(was);
     trace_now();
@@ -167,7 +168,7 @@ const take_numbers = (list, of) => {
     for (const { key } of list) if (key.startsWith('variables.')) add_slider(key);
   take_numbers.once = true;
   for (const { show_number } of shown.values()) show_number();
-  list_keys();
+  if (dragged_from === null) list_keys();  // a drag changes the number of its slider alone
 };
 
 // --- traces ----------------------------------------------------------------------------------------------------------
@@ -266,7 +267,7 @@ const select_line = (line) => {
 const show_page = () => {
   const page = new DOMParser().parseFromString(last.page, 'text/html');
   const data = JSON.parse(page.getElementById('data').textContent);
-  const before = report && { ...report.view(), plot: report.release_plot() };
+  const before = report && { ...report.view(), plot: report.release_plot(), keeps_axes: dragged_from !== null };
   report?.close();
   report = null;
   data.overlays = pins;

@@ -1,8 +1,14 @@
 // What all plots of plotly have in common, whatever page they stand on.
 'use strict';
 
-// Colours of the page, which follow whether it is light or dark.
-const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+// Colours of the page, which follow whether it is light or dark. Each is asked for once: a browser works out the styles of
+// the whole page to answer.
+const colours = new Map();
+window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => colours.clear());
+const colour = (name) => {
+  if (!colours.has(name)) colours.set(name, getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
+  return colours.get(name);
+};
 
 // plotly reads <b>, <a href=…>, <br> and entities in its texts.
 const as_text = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;');

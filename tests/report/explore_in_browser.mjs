@@ -53,6 +53,48 @@ test('thirty values of the gap: the tables are those of run', async (context) =>
   await finish();
 });
 
+// What plotly has drawn: the ranges of the axes, the margins, and where the lines and marks are.
+const drawn_curve = (page) => page.evaluate(() => {
+  const plot = document.getElementById('plot'), { xaxis, yaxis, _size: { l, r, t, b } } = plot._fullLayout;
+  const places = (name, attribute) => [...plot.querySelectorAll(`.scatterlayer ${name}`)].map((one) => one.getAttribute(attribute)).filter(Boolean);
+  return { ranges: [[...xaxis.range], [...yaxis.range]], margins: [l, r, t, b], lines: places('.js-line', 'd'), marks: places('.point', 'transform') };
+});
+
+test('the axes stay while a slider is dragged; when it is released all is drawn as by a new page', async () => {
+  const { address } = await explore();
+  const { page, finish } = await opened(address);
+  await add(page, upper);
+  for (const gap of ['0.25', '0.15', '0.25']) {
+    await move(page, upper, gap);
+    await settled(page);
+  }
+  const widest = await drawn_curve(page);
+  for (const gap of ['0.24', '0.18', '0.16']) {
+    await move(page, upper, gap);
+    await settled(page);
+    const { ranges, margins, lines } = await drawn_curve(page);
+    assert.deepEqual({ ranges, margins }, { ranges: widest.ranges, margins: widest.margins }, gap);
+    assert.notDeepEqual(lines, widest.lines, 'the curve changes');
+  }
+  const off = await page.evaluate(() => {
+    const plot = document.getElementById('plot'), { xaxis, yaxis } = plot._fullLayout;
+    const ends = plot.data.flatMap(({ mode, x, y }) => mode === 'lines' && x[0] !== null ? [[xaxis.l2p(x[0]), yaxis.l2p(y[0])]] : []);
+    const begins = [...plot.querySelectorAll('.scatterlayer .js-line')].map((line) => /^M(-?[\d.]+),(-?[\d.]+)/.exec(line.getAttribute('d'))?.slice(1).map(Number));
+    return ends.map(([x, y]) => Math.min(...begins.map((begin) => begin ? Math.hypot(begin[0] - x, begin[1] - y) : Infinity)));
+  });
+  assert.ok(off.length >= 3 && Math.max(...off) < 0.02, `each line begins where its data do: ${off}`);
+  await release(page, upper);
+  await page.waitForFunction((before) => document.getElementById('plot')._fullLayout.xaxis.range[1] < before, widest.ranges[0][1]);
+
+  const other = await explore(channel_text.replace('z = 0.2 }', 'z = 0.16 }'));
+  const anew = await opened(other.address);
+  await add(anew.page, upper);
+  assert.deepEqual(await drawn_curve(page), await drawn_curve(anew.page));
+  assert.deepEqual(await tables(page), await tables(anew.page));
+  await anew.finish();
+  await finish();
+});
+
 test('pins, undo, reset, the command and the saved deck', async () => {
   const { address, home } = await explore();
   const { page, finish } = await opened(address);

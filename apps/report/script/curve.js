@@ -42,13 +42,15 @@ const line_traces = ({ across, up }) => {
 const in_state = (quantity, lambda, monitors) => quantity === load ? lambda : monitors[columns.findIndex(({ name }) => name === quantity.key)];
 
 // Where the structure jumps to from a loss of stability, at constant λ.
-const jump_arrows = ({ across, up }) => data.jumps.flatMap((jump) => {
-  const [ax, ay] = [across, up].map((quantity) => in_state(quantity, jump.lambda, jump.from));
-  const [x, y] = [across, up].map((quantity) => in_state(quantity, jump.lambda, jump.to));
-  if ([ax, ay, x, y].some((value) => value === undefined || value === null)) return [];
-  return [{ x, y, ax, ay, xref: 'x', yref: 'y', axref: 'x', ayref: 'y', text: '', showarrow: true, arrowhead: 2, arrowwidth: 2,
-    arrowcolor: colour('force') }];
-});
+const jump_arrows = ({ across, up }) => {
+  const ends = data.jumps.map((jump) => [jump.from, jump.to].map((monitors) =>
+    [across, up].map((quantity) => in_state(quantity, jump.lambda, monitors) ?? null)));
+  const known = ends.filter((both) => both.flat().every((value) => value !== null));
+  const of_all = (values) => known.flatMap((both) => [...values(both), null]);
+  return { type: 'scatter', mode: 'lines+markers', hoverinfo: 'skip', connectgaps: false,
+    x: of_all((both) => both.map(([x]) => x)), y: of_all((both) => both.map(([, y]) => y)), line: { color: colour('force'), width: 2 },
+    marker: { symbol: 'arrow', angleref: 'previous', opacity: 1, color: colour('force'), size: known.flatMap(() => [0, 12, 0]), line: { width: 0 } } };
+};
 
 // Where the events are, if the rest of the curve would leave them a small part of the picture; else null. It goes from
 // the start to the last event of each branch that has one.
@@ -71,7 +73,12 @@ const view_of_events = ({ across, up }) => {
 
 // Marks of hundreds of changes of contact would cover each other and the curve: of those that stand closer than their
 // size one is drawn. Other events always are.
-const drawn_events = ({ across, up }, view, size) => {
+// `sizes`: gives those of the picture in pixels, for which a browser lays out the page.
+const drawn_events = ({ across, up }, view, sizes) => {
+  const few = 40;
+  const is_contact = ({ kind }) => /^contact(-(closes|opens|spreads|splits|shrinks|transfers)|s-merge)$/.test(kind);
+  if (events.filter(is_contact).length <= few) return events;
+  const size = sizes();
   const [x, y] = [[across.values, view[0], size[0]], [up.values, view[1], size[1]]].map(([values, [low, high], pixels]) =>
     (point) => (values[point] - low) / (high - low || 1) * pixels);
   const least = 13;
@@ -86,9 +93,6 @@ const drawn_events = ({ across, up }, view, size) => {
     cells.set(`${column} ${row}`, event);
     return true;
   };
-  const few = 40;
-  const is_contact = ({ kind }) => /^contact(-(closes|opens|spreads|splits|shrinks|transfers)|s-merge)$/.test(kind);
-  if (events.filter(is_contact).length <= few) return events;
   return events.filter((event) => !is_contact(event) || is_free(event));
 };
 

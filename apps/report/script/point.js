@@ -65,7 +65,7 @@ const show_row = (row) => {
 const mark_rows = (place) => {
   for (const marked of document.querySelectorAll('#events .here, #jumps .here, #strip .here')) marked.classList.remove('here');
   for (const one of document.querySelectorAll(`:is(#events, #jumps, #strip) [${place}]`)) one.classList.add('here');
-  show_row(document.querySelector('#events .here, #jumps .here'));
+  requestAnimationFrame(() => show_row(document.querySelector('#events .here, #jumps .here')));  // when the page is laid out
 };
 const show_event = (point) => {
   const said = (events_at.get(point) ?? []).map((event) =>

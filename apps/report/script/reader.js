@@ -34,11 +34,23 @@ if (shapes.length === 0) return null;
 document.documentElement.classList.add('js');
 const quantity = (key) => quantities.find((one) => one.key === key);
 let axes = { across: quantity(before?.axes.across) ?? first_axes.across, up: quantity(before?.axes.up) ?? first_axes.up };
+// The event that was shown, else as far along the path.
+const shape_as_before = ({ event, part }) => {
+  const same = event && events.filter(({ kind }) => kind === event.kind)[event.number];
+  return same ? shape_near(same.point) : Math.round(part * (shapes.length - 1));
+};
+const asked_for = /^#point=(\d+)$/.exec(window.location.hash);  // report.html#point=30
+// The event that matters: the first jump, else the first at which stability may be lost, else the end.
+const turning = ['limit-point', 'contact-limit-point', 'branch-point'];
+const first_jump = events.find((event) => event.jumps), first_turn = events.find((event) => turning.includes(event.kind));
+const matters = asked_for ? Number(asked_for[1]) : (first_jump ?? first_turn ?? events.find(({ kind }) => kind === 'end'))?.point ?? 0;
+const opening = before ? shape_as_before(before) : shape_near(matters);
+
 if (typeof Plotly === 'undefined') {
   chart = picture_chart(go_to, axes);
 } else {
   element('charts').classList.add('drawn-by-library');
-  chart = plotly_chart(go_to, axes, before?.plot);
+  chart = plotly_chart(go_to, axes, shapes[opening].point, before?.plot, before?.keeps_axes);
   on_keys(element('plot'), walk, { signal: closing.signal });
 }
 show_forces = forces_panel();
@@ -84,11 +96,6 @@ const view = () => {
     walked,
   };
 };
-// The event that was shown, else as far along the path.
-const shape_as_before = ({ event, part }) => {
-  const same = event && events.filter(({ kind }) => kind === event.kind)[event.number];
-  return same ? shape_near(same.point) : Math.round(part * (shapes.length - 1));
-};
 for (const [id, value] of before?.chosen ?? []) {
   const choice = element(id);
   if (!choice || choice.value === value || ![...choice.options].some((option) => option.value === value)) continue;
@@ -96,12 +103,7 @@ for (const [id, value] of before?.chosen ?? []) {
   choice.dispatchEvent(new Event('change'));
 }
 
-const asked_for = /^#point=(\d+)$/.exec(window.location.hash);  // report.html#point=30
-// The event that matters: the first jump, else the first at which stability may be lost, else the end.
-const turning = ['limit-point', 'contact-limit-point', 'branch-point'];
-const first_jump = events.find((event) => event.jumps), first_turn = events.find((event) => turning.includes(event.kind));
-const opening = asked_for ? Number(asked_for[1]) : (first_jump ?? first_turn ?? events.find(({ kind }) => kind === 'end'))?.point ?? 0;
 walked = before?.walked ?? asked_for !== null;
-show(before ? shape_as_before(before) : shape_near(opening));
-return { view, curve: path_curve, release_plot: () => chart.release(),
+show(opening);
+return { view, curve: path_curve, draw_curve: () => chart.draw(), release_plot: () => chart.release(),
   close: () => { cancelAnimationFrame(playing); closing.abort(); } };
