@@ -201,8 +201,13 @@ const trace_now = () => {
 };
 
 const trace_text = async () => {
-  const of = text, control = new AbortController();
-  running = { text: of, control };
+  const of = text, control = new AbortController(), trace = { text: of, control };
+  running = trace;
+  const go_on = () => {
+    if (running !== trace) return;
+    running = null;
+    if (text !== of) trace_text();
+  };
   let ended = false;
   try {
     const answer = await fetch('trace', { method: 'POST', body: of, signal: control.signal })
@@ -216,14 +221,14 @@ const trace_text = async () => {
       }
       ended = true;
       traced = of;
+      go_on();  // the program traces the next text while this page draws the answer
       show_answer(line, of);
     }
     if (!ended) throw new Error('trace-path has ended');
   } catch (problem) {
     if (!control.signal.aborted) say(`There is no result: ${problem.message}.`);
   }
-  running = null;
-  if (text !== of) trace_text();
+  go_on();
 };
 
 const signals = new Map([[9, 'a limit of memory or time ended the trace'], [24, 'the limit of time ended the trace']]);
@@ -267,7 +272,7 @@ const select_line = (line) => {
 const show_page = () => {
   const page = new DOMParser().parseFromString(last.page, 'text/html');
   const data = JSON.parse(page.getElementById('data').textContent);
-  const before = report && { ...report.view(), plot: report.release_plot(), keeps_axes: dragged_from !== null };
+  const before = report && { ...report.view(), plot: report.release_plot(), keeps_axes: dragged_from !== null || last.text !== text };
   report?.close();
   report = null;
   data.overlays = pins;

@@ -95,6 +95,31 @@ test('the axes stay while a slider is dragged; when it is released all is drawn 
   await finish();
 });
 
+test('the next text is traced while the answer of the one before is drawn', async () => {
+  const { address } = await explore();
+  const { page, finish } = await opened(address);
+  await add(page, upper);
+  const order = await page.evaluate((key) => new Promise((resolve) => {
+    const slider = document.querySelector(`.number[data-key="${key}"] input[type=range]`), result = document.getElementById('result');
+    const happened = [], gap_of = (text) => /z = (0\.2\d) }/.exec(text)[1], fetched = window.fetch;
+    const drag = (value) => {
+      slider.value = value;
+      slider.dispatchEvent(new Event('input'));
+    };
+    window.fetch = (path, options) => {
+      happened.push(`ask ${gap_of(options.body)}`);
+      return fetched(path, options);
+    };
+    new MutationObserver(() => {
+      happened.push(`show ${gap_of(result.dataset.text)}`);
+      if (result.dataset.text === document.getElementById('text').value) resolve(happened);
+    }).observe(result, { attributeFilter: ['data-text'] });
+    for (const gap of ['0.21', '0.22', '0.23']) drag(gap);
+  }), upper);
+  assert.deepEqual(order, ['ask 0.21', 'ask 0.23', 'show 0.21', 'show 0.23']);
+  await finish();
+});
+
 test('pins, undo, reset, the command and the saved deck', async () => {
   const { address, home } = await explore();
   const { page, finish } = await opened(address);
