@@ -188,7 +188,8 @@ def compose(style: str, chart: str, shape: str) -> str:
     # Rules for what is drawn; those of the page's layout stay behind, and variables, which some viewers do not know.
     drawn = {word for words in re.findall(r'class="([^"]*)"', chart + shape) for word in words.split()}
     rules = "\n".join(rule for rule in re.findall(r"^(?:svg\.|\.)[^{\n]*\{[^}\n]*\}", style, flags=re.M)
-                      if "width: 100%" not in rule and drawn.issuperset(re.findall(r"\.([a-z][\w-]*)", rule.split("{")[0])))
+                      if "width: 100%" not in rule and any(drawn.issuperset(re.findall(r"\.([a-z][\w-]*)", selector))
+                                                           for selector in rule.split("{")[0].split(",")))
     for name, value in re.findall(r"(--[\w-]+):\s*([^;}]+)", style):
         rules = rules.replace(f"var({name})", value.strip())
     return ('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1240 440">'
