@@ -1,6 +1,7 @@
 """The examples of devices, each with a number that can be had by hand. `tests/apps/devices_test.cpp` holds them."""
 
 import math
+from typing import Callable
 
 from make_validation import Case, Quantity, Run, landed, load, monitor
 
@@ -32,6 +33,42 @@ def greatest_thrust(EI: float, A: float, k: float, q: float) -> float:
 
 def device(name: str, title: str, quantity: Quantity) -> Case:
     return Case(title, f"examples/{name}.toml", {}, [quantity])
+
+
+def yields(r: float, angle: float, EI: float) -> tuple:
+    """The tip's compliance across, and across by along, of a circular arc to ± angle, clamped opposite: small slopes."""
+    n, span = 20000, math.pi - angle
+    places = [angle + span * (i + 0.5) / n for i in range(n)]
+    across = [r * (math.cos(angle) - math.cos(a)) for a in places]
+    along = [r * (math.sin(a) - math.sin(angle)) for a in places]
+    scale = r * span / n / EI
+    return scale * sum(z * z for z in across), scale * sum(z * x for z, x in zip(across, along))
+
+
+def clip_force(r: float, mouth: float, pipe: float, EI: float, mu: float, sense: int) -> float:
+    """The maximum force on half of a pipe that goes into a clip (sense 1) or out of it (−1), small slopes."""
+    across, both = yields(r, mouth, EI)
+    low = math.asin(r * math.sin(mouth) / pipe)
+    forces = []
+    for i in range(1, 2000):
+        angle = low + (math.pi - 2 * low) * i / 2000
+        x = math.cos(angle) - sense * mu * math.sin(angle)  # of the force on the tip over the contact force
+        z = math.sin(angle) + sense * mu * math.cos(angle)
+        forces.append(-sense * (pipe * math.sin(angle) - r * math.sin(mouth)) * x / (across * z + both * x))
+    return max(forces)
+
+
+def lifted(EI: float, EA: float, weight: float, mu: float, strain: float) -> float:
+    """Height of Hobbs's span without a force under its middle (1984), the lower one."""
+    def excess(L: float) -> float:
+        feed = math.sqrt(max(0.0, 1.597e-5 * EA * mu * weight * L**5 - 0.25 * (mu * EI) ** 2))
+        return 80.76 * EI / L**2 + weight * L / EI * feed - EA * strain
+
+    low, high = 15.0, 30.0
+    for _ in range(100):
+        middle = (low + high) / 2
+        low, high = (middle, high) if excess(middle) > 0 else (low, middle)
+    return 2.408e-3 * weight * low**4 / EI
 
 
 def lift_at_greatest_push(run: Run) -> float:
@@ -81,4 +118,43 @@ def devices() -> list:
         device("lattice", "Lattice of curved bars", Quantity(
             "force at which the first row gives way", monitor("force", "turning-point"), 2 * cosine_beam(3 / 1.364) * nylon * 3 / 40**3,
             "two cosine beams by Qiu, Lang and Slocum 2004, small slopes")),
+    ]
+
+
+def snap_fit_by_hand(mu: float, slope: float) -> float:
+    """P (μ + t)/(1 − μ t) at the end of a flank of slope t, where the rounding of 0.3 begins below the top at 1.2."""
+    y = 1.2 - 0.3 * (1 - math.cos(math.atan(slope)))
+    return 3 * 2400 * 5 * 1.5**3 / 12 * y / 20**3 * (mu + slope) / (1 - mu * slope)
+
+
+def pushed(stage: str) -> Callable[[Run], float]:
+    """The maximum push of the load step "insert", the maximum pull of "remove"."""
+    def of(run: Run) -> float:
+        pushes = [float(point["push"]) for point in run.points if point["stage"] == stage]
+        return max(pushes) if stage == "insert" else -min(pushes)
+    return of
+
+
+def at_last(name: str) -> Callable[[Run], float]:
+    return lambda run: float(run.points[-1][name])
+
+
+def with_friction() -> list:
+    """Each number by hand, and by shooting of the extensible elastica with contact at the same nodes."""
+    def both(what: str, of: Callable[[Run], float], by_hand: float, by_shooting: float) -> list:
+        return [Quantity(f"{what} by hand", of, by_hand, "formula of the deck's first lines, small slopes"),
+                Quantity(what, of, by_shooting, "shooting, contact at the same nodes")]
+
+    clip = 2400 * 10 * 2**3 / 12
+    return [
+        Case("Snap-fit with friction", "examples/snap-fit-friction.toml", {}, [
+            *both("insertion", pushed("insert"), snap_fit_by_hand(0.3, 0.5), 1.589465818552),
+            *both("removal", pushed("remove"), snap_fit_by_hand(0.3, 1.0), 1.972334610946)]),
+        Case("Pipe clip with friction", "examples/clip.toml", {}, [
+            *both("insertion", pushed("insert"), clip_force(11.0, 0.9, 10.8, clip, 0.3, 1), 4.377915125774),
+            *both("removal", pushed("remove"), clip_force(11.0, 0.9, 10.8, clip, 0.3, -1), 6.144239492927)]),
+        Case("Drill pipe that locks up", "examples/drill-pipe.toml", {}, both(
+            "force on the bit", at_last("bit"), 1000 * math.exp(-2.5 * 0.4 * 32 * 2000 / 200**2), 190.866441)),
+        Case("Rail lifted in the heat", "examples/rail-lift.toml", {}, both(
+            "height", load("value-crossing"), 100 * lifted(12600, 3.234e6, 4, 0.6, 1.15e-5 * 60), 18.7978641)),
     ]

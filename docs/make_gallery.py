@@ -13,8 +13,8 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from device_cases import devices
-from make_validation import SOURCE, cases, trace_into
+from device_cases import devices, pushed, snap_fit_by_hand, with_friction
+from make_validation import SOURCE, Case, Run, cases, trace, trace_into
 
 FOLDER = SOURCE / "docs/gallery"
 
@@ -28,6 +28,7 @@ class Picture:
     title: str
     text: str
     label: str  # of the quantity
+    by_hand: str = ""  # formula
 
 
 PICTURES = [
@@ -163,6 +164,35 @@ PICTURES = [
             "Buckling force of the first row"),
 ]
 
+# With friction: each number of the case is given by the run, by hand and by shooting.
+FRICTION = [
+    Picture("snap-fit-friction", "Snap-fit with friction", "insertion, removal", "turning-point",
+            "A snap-fit with friction",
+            "The catch is pushed through the hook and drawn back, with friction. The usual formula is 12 % low for insertion and 33 % high "
+            "for removal.",
+            "Insertion force, removal force",
+            "P (μ + t)/(1 − μ t) with P = 3 EI y/ℓ³ at the end of a flank of slope t"),
+    Picture("clip", "Pipe clip with friction", "insertion, removal", "turning-point",
+            "A clip for a pipe",
+            "A pipe is pressed into a clip and drawn out again. Removal needs 40 % more force than insertion, though the pipe is the same "
+            "from both sides.",
+            "Insertion force, removal force",
+            "maximum over γ of (r sin γ − a) F_x/(C_zx F_x + C_zz F_z), with the compliance C of a curved beam. F is the pipe's normal at γ, "
+            "turned by atan μ"),
+    Picture("drill-pipe", "Drill pipe that locks up", "force on the bit", "end",
+            "A drill pipe that locks up",
+            "A rod that has buckled into ten half waves is pushed through a slot with rough walls, the planar model of a drill pipe. "
+            "Friction takes its share at each crest: 1000 N at the top are 191 N at the bit.",
+            "Force on the bit",
+            "F exp(−5/2 μ h L/a²) for half waves of length a in a slot of width h"),
+    Picture("rail-lift", "Rail lifted in the heat", "height", "value-crossing",
+            "A hot rail on ballast",
+            "A track is heated by 60 degrees, then lifted by a jack against its weight and the friction of the ballast. Above 19 cm the "
+            "jack has to pull it down: the track would buckle upwards.",
+            "Height in centimetres",
+            "2.408e-3 q L⁴/EI with EA α T = 80.76 EI/L² + (q L/EI) √(1.597e-5 EA μ q L⁵ − ¼ (μ EI)²), Hobbs 1984"),
+]
+
 
 def drawings(report: str, kind: str, events: list) -> tuple:
     """The first chart, the walls and the shape at the last event of a kind."""
@@ -197,15 +227,42 @@ def compose(style: str, chart: str, shape: str) -> str:
             f"{placed(chart, 0, 720, 440)}{placed(shape, 730, 500, 440)}</svg>\n")
 
 
-def entry(program: str, picture: Picture, known: dict) -> str:
-    case = known[picture.case]
-    quantity = next(q for q in case.quantities if q.what == picture.quantity)
+def draw(program: str, picture: Picture, case: Case) -> Run:
+    """The run of a case, whose picture it writes."""
     with tempfile.TemporaryDirectory() as folder:
         traced = trace_into(folder, program, SOURCE / case.deck, [])
         svg = compose(*drawings(Path(folder, "report.html").read_text(), picture.event, traced.events))
     (FOLDER / f"{picture.name}.svg").write_text(svg)
+    return traced
+
+
+def entry(program: str, picture: Picture, known: dict) -> str:
+    case = known[picture.case]
+    quantity = next(q for q in case.quantities if q.what == picture.quantity)
+    traced = draw(program, picture, case)
     return (f"## {picture.title}\n\n{picture.text}\n\n![load and shape](gallery/{picture.name}.svg)\n\n"
             f"`{case.deck}`. {picture.label}: **{quantity.of(traced):.6g}**, reference {quantity.reference:.6g}.\n")
+
+
+def friction_entry(program: str, picture: Picture, known: dict) -> str:
+    case = known[picture.case]
+    quantities = {q.what: q for q in case.quantities}
+    traced = draw(program, picture, case)
+    numbers = "; ".join(f"{label}: **{quantities[what].of(traced):.6g}**, by hand {quantities[what + ' by hand'].reference:.4g}, by "
+                        f"shooting {quantities[what].reference:.6g}"
+                        for label, what in zip(picture.label.split(", "), picture.quantity.split(", "), strict=True))
+    return (f"## {picture.title}\n\n{picture.text}\n\n![load and shape](gallery/{picture.name}.svg)\n\n"
+            f"`{case.deck}`. {numbers}.\n\nBy hand: {picture.by_hand}.\n")
+
+
+def snap_fit_by_friction(program: str) -> str:
+    """Forces of the snap-fit over the coefficient of friction."""
+    table = "| μ | insertion | by hand | removal | by hand |\n| --- | --- | --- | --- | --- |\n"
+    for mu in (0.0, 0.1, 0.2, 0.3, 0.4):
+        run = trace(program, SOURCE / "examples/snap-fit-friction.toml", [f"wall.catch.friction={mu}"])
+        table += (f"| {mu:g} | {pushed('insert')(run):.4g} | {snap_fit_by_hand(mu, 0.5):.4g} | {pushed('remove')(run):.4g} "
+                  f"| {snap_fit_by_hand(mu, 1.0):.4g} |\n")
+    return table
 
 
 HEAD = """# Gallery
@@ -221,8 +278,10 @@ def main() -> None:
         sys.exit("usage: python3 docs/make_gallery.py TRACE_PATH")
     program = str(Path(sys.argv[1]).resolve())
     FOLDER.mkdir(exist_ok=True)
-    known = {case.title: case for case in [*cases(), *devices()]}
-    page = "\n".join([HEAD, *(entry(program, picture, known) for picture in PICTURES)])
+    known = {case.title: case for case in [*cases(), *devices(), *with_friction()]}
+    with_forces = [friction_entry(program, picture, known) for picture in FRICTION]
+    with_forces.insert(1, snap_fit_by_friction(program))
+    page = "\n".join([HEAD, *(entry(program, picture, known) for picture in PICTURES), *with_forces])
     (SOURCE / "docs/gallery.md").write_text(page)
 
 

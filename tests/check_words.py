@@ -46,7 +46,7 @@ OPENING = re.compile(r"^(?:Where|What|Of) (?!.*\?$)")
 
 # Words that a page may have, code and tables included.
 BUDGETS = {
-    "README.md": 1910, "CHANGELOG.md": 700, "docs/tutorial.md": 1500, "docs/gallery.md": 1050, "docs/contributing.md": 900,
+    "README.md": 1910, "CHANGELOG.md": 700, "docs/tutorial.md": 1500, "docs/gallery.md": 1540, "docs/contributing.md": 900,
     "docs/explanation/contact.md": 1550, "docs/explanation/loading.md": 900, "docs/explanation/trust.md": 1300,
     "docs/reference/deck.md": 5450, "docs/reference/outputs.md": 3000, "docs/reference/errors.md": 2000,
     "docs/reference/command-line.md": 700, "docs/reference/glossary.md": 1000, "docs/reference/python.md": 1900,
