@@ -92,6 +92,19 @@ test('the axes stay while a slider is dragged; when it is released all is drawn 
   assert.deepEqual(await drawn_curve(page), await drawn_curve(anew.page));
   assert.deepEqual(await tables(page), await tables(anew.page));
   await anew.finish();
+
+  for (const gap of ['0.25', '0.16']) {
+    await move(page, upper, gap);
+    await release(page, upper);
+    await settled(page);
+    if (gap === '0.25') await page.click('#pin');
+  }
+  const beside = await page.evaluate(() => {
+    const plot = document.getElementById('plot'), { xaxis } = plot._fullLayout;
+    const { x } = plot.data.find(({ line }) => line?.color === '#8C6BB1');
+    return [xaxis.l2p(Math.min(...x)), xaxis._length - xaxis.l2p(Math.max(...x))];
+  });
+  assert.ok(Math.min(...beside) > 5, `room beside a pinned curve: ${beside}`);
   await finish();
 });
 

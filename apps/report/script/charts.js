@@ -30,13 +30,15 @@ const plotly_chart = (picked, axes, opening, kept, keeps_axes) => {
   // Lines without a place, for those that are drawn and that this run has not.
   const empty_lines = (all, line) =>
     Array.from({ length: Math.max(plot.data.length - all.length, 0) }, () => ({ ...line, x: [null], y: [null] }));
-  // Whether these traces can take the place of those that are drawn, and lie within their axes.
+  // Whether these traces can take the place of those that are drawn, with the same properties, and lie within their axes.
   const ranges_of = (all) => ['x', 'y'].map((way) => range_of(all.flatMap((trace) => trace[way])));
   const has_room_for = (all, ranges) => {
-    const looks = (traces) => JSON.stringify(traces.map((trace) => [trace.mode, ...Object.keys(trace).sort()]));
+    const is_table = (value) => typeof value === 'object' && !Array.isArray(value);
+    const properties = (trace) => JSON.stringify(trace, (key, value) => key === 'mode' || is_table(value) ? value : null);
+    const properties_of = (traces) => traces.map(properties).join(' ');
     const is_on = (axis, { title }, [low, high]) => axis.title.text === as_text(title) && axis.range[0] <= low && high <= axis.range[1];
     const { xaxis, yaxis } = plot.layout;
-    return looks(all) === looks(plot.data) && is_on(xaxis, shown.across, ranges[0]) && is_on(yaxis, shown.up, ranges[1]);
+    return properties_of(all) === properties_of(plot.data) && is_on(xaxis, shown.across, ranges[0]) && is_on(yaxis, shown.up, ranges[1]);
   };
   const at_once = { mode: 'immediate', transition: { duration: 0 }, frame: { duration: 0, redraw: false } };
   // With its axes kept plotly changes the traces alone, in a fifth of the time.

@@ -109,7 +109,8 @@ const event_trace = ({ across, up }, drawn) => {
   };
 };
 
-// Other runs and measured points, where they have both quantities. Of a run a second trace has the points.
+// Other runs and measured points, where they have both quantities. Of a run a second trace has the points: marks that are not
+// seen, for which plotly leaves room at the edge of the picture.
 const overlay_traces = ({ across, up }) => data.overlays.filter(({ values }) => values[across.key] && values[up.key]).flatMap((other) => {
   const { [across.key]: x, [up.key]: y } = other.values;
   const named = { type: 'scatter', x, y, hoverinfo: 'text',
@@ -121,6 +122,6 @@ const overlay_traces = ({ across, up }) => data.overlays.filter(({ values }) => 
     drawn.x.push(...part.x, null);
     drawn.y.push(...part.y, null);
   });
-  return [{ ...named, mode: 'lines', line: { width: 0 } },
+  return [{ ...named, mode: 'markers', marker: { opacity: 0, size: 12, maxdisplayed: 1 } },
     { type: 'scatter', mode: 'lines', hoverinfo: 'skip', connectgaps: false, ...drawn, line: { color: other.colour, width: 1.6 } }];
 });
