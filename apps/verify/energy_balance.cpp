@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
+#include "apps/verify/differences.hpp"
 #include "continuation/path_tolerances.hpp"
 
 namespace arcwall::verify {
@@ -88,31 +90,49 @@ Quadrature integral(const Samples& s, const Samples& a, const Samples& b) {
   return sum;
 }
 
-// By how much λ does work on the structure: ∂Π/∂λ with the unknowns and the places of contacts on walls held. The error
-// is what differences over twice the step change.
-Quadrature work_rate(const Model& model, const State& state, double step) {
-  const auto energy = [&](double h) {
-    State moved = state;
-    moved.lambda += h;
-    return model.system().energy(moved);
-  };
-  const auto over = [&](double h) { return (energy(h) - energy(-h)) / (2.0 * h); };
-  const double near = over(step), far = over(2.0 * step), farthest = over(4.0 * step);
-  double rate = (4.0 * near - far) / 3.0;
-  const double error = std::abs(rate - (4.0 * far - farthest) / 3.0);
+// A derivative, and by how much two differences of it differ.
+struct Rate {
+  double value = 0.0, error = 0.0;
+};
+
+// f′(0) by differences of order 4 (after Ridders, Adv. Eng. Softw. 4, 1982): with shorter steps their own error falls,
+// that of round-off grows; of two in a row those that agree best are taken. f is NaN where the steps are too long for
+// it.
+Rate refined_derivative(const auto& f, double longest) {
+  constexpr int steps = 9;
+  constexpr double shorter = 0.25;
+  Rate best{.value = std::numeric_limits<double>::quiet_NaN(), .error = std::numeric_limits<double>::infinity()};
+  double before = std::numeric_limits<double>::quiet_NaN(), h = longest;
+  for (int i = 0; i < steps; ++i, h *= shorter) {
+    const double value = derivative(f, h);
+    if (const double error = std::abs(value - before); error < best.error) best = {.value = value, .error = error};
+    before = value;
+  }
+  return best;
+}
+
+// By how much λ does work on the structure: ∂Π/∂λ with the unknowns and the places of contacts on walls held.
+Rate work_rate(const Model& model, const State& state, double longest) {
+  Rate rate = refined_derivative(
+      [&](double h) {
+        State moved = state;
+        moved.lambda += h;
+        return model.system().energy(moved);
+      },
+      longest);
   const MultiplierContact& contacts = *model.contact();
   Gap field;
   for (Index j = 0; j < contacts.contact_count(); ++j) {
     const auto p = contacts.multiplier_index(state.active_set, j);
     if (!p) continue;
     contacts.candidate(j).gap(state, field);
-    rate -= state.x[*p] * field.rate;
+    rate.value -= state.x[*p] * field.rate;
     const auto T = contacts.friction_index(state.active_set, j);
     if (!T) continue;
     contacts.candidate(j).place(state, 0.0, field);
-    rate -= state.x[*T] * field.rate;
+    rate.value -= state.x[*T] * field.rate;
   }
-  return {.value = rate, .error = error};
+  return rate;
 }
 
 // −∫ T dw of all contacts along a piece, from what the states tell of T and w.
@@ -146,28 +166,31 @@ void check_energy_balance(const Model& model, const Record& record, Index branch
   const double range = of.greatest_lambda - of.least_lambda;
   const double step = 2e-4 * (range > 0.0 ? range : 1.0);
   Quadrature work, friction;
-  double dissipated_in_run = 0.0, stored = 0.0, magnitude = 0.0, error_of_rate = 0.0;
+  double dissipated_in_run = 0.0, stored = 0.0, magnitude = 0.0, travelled = 0.0;
   for (const Piece& piece : pieces_of(record, branch)) {
     std::vector<const RecordPoint*> points;
-    Samples s, lambda, rate;
+    Samples s, lambda, rate, off;
     for (std::size_t i = piece.first; i <= piece.last; ++i) {
       const RecordPoint& point = record.points[i];
       if (!s.empty() && point.arc <= s.back()) continue;  // the same place again
       points.push_back(&point);
       s.push_back(point.arc);
       lambda.push_back(point.lambda);
-      const Quadrature by_lambda = work_rate(model, point.state, step);
-      rate.push_back(unit * by_lambda.value);
-      error_of_rate = std::max(error_of_rate, unit * by_lambda.error);
+      const Rate of_work = work_rate(model, point.state, step);
+      rate.push_back(unit * of_work.value);
+      off.push_back(unit * of_work.error);
       magnitude = std::max({magnitude, std::abs(point.energy), std::abs(rate.back() * point.lambda)});
     }
     work += integral(s, rate, lambda);
+    for (std::size_t i = 0; i + 1 < s.size(); ++i)
+      work.error += std::max(off[i], off[i + 1]) * std::abs(lambda[i + 1] - lambda[i]);
     friction += dissipated(model, points, s);
     const RecordPoint &from = record.points[piece.first], &to = record.points[piece.last];
     const auto total = [](const RecordPoint& at) {
       return std::accumulate(at.dissipation.begin(), at.dissipation.end(), 0.0);
     };
     stored += to.energy - from.energy;
+    travelled += to.arc - from.arc;
     dissipated_in_run += total(to) - total(from);
     for (std::size_t i = piece.first; i < piece.last; ++i)
       for (std::size_t wall = 0; wall < from.dissipation.size(); ++wall)
@@ -176,7 +199,12 @@ void check_energy_balance(const Model& model, const Record& record, Index branch
   }
   friction.value *= unit;
   friction.error *= unit;
-  const double roundoff = error_of_rate * range + 1e-12 * magnitude;
+  // Energies are sums of as many parts as there are unknowns; rates are differences of such over a part of the range.
+  // Forces of no motion but round-off do work on the whole path, whose length is that of mean motions.
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const Structure& structure = model.structure();
+  const double of_forces = 10.0 * structure.force_roundoff() * structure.length_scale() * travelled;
+  const double roundoff = (1e3 * epsilon * range / step + 1e-12) * magnitude + unit * of_forces;
   findings.compare("friction dissipates −∫ T dw", std::abs(dissipated_in_run - friction.value),
                    friction.error + roundoff);
   findings.compare("work = energy stored + dissipated", std::abs(work.value - stored - dissipated_in_run),

@@ -78,6 +78,15 @@ Number of_guidewire(const Record& record) {  // EI/(2 R²)
   return {monitor(record, landed(record, 60.0).monitors, "push"), EI / (2.0 * 58.0 * 58.0), 0.02};
 }
 
+// 2 μ F (1 + 2 √2 e^(−μθ) + e^(−2 μθ)): F = EI/(R √(48 c R)) where the wire crosses between straight and bend, 2 √2 F
+// between bends, and the thrust relieves the inner wall of a bend of the angle θ.
+Number of_guidewire_friction(const Record& record) {
+  const double EI = 6.0e4 * pi / 4.0 * std::pow(0.18, 4.0), R = 60.0, c = 1.0, mu = 0.2;
+  const double F = EI / (R * std::sqrt(48.0 * c * R)), relief = std::exp(-mu * pi / 3.0);
+  return {monitor(record, landed(record, 165.0).monitors, "push"),
+          2.0 * mu * F * (1.0 + std::sqrt(8.0) * relief + relief * relief), 0.04};
+}
+
 Number of_harvester(const Record& record) {  // 2 √(δ L)/π
   const RecordPoint* rests = nullptr;
   for (const RecordPoint& point : record.points)
@@ -177,6 +186,7 @@ const std::map<std::string_view, Number (*)(const Record&)> numbers{{"bow", of_b
                                                                     {"drill-pipe", of_drill_pipe},
                                                                     {"drill-string", of_drill_string},
                                                                     {"guidewire", of_guidewire},
+                                                                    {"guidewire-friction", of_guidewire_friction},
                                                                     {"harvester", of_harvester},
                                                                     {"lattice", of_lattice},
                                                                     {"leaf-spring", of_leaf_spring},
@@ -229,7 +239,8 @@ TEST(DevicesWithFriction, ArePushedInAndDrawnOutAsByShooting) {
 
 // As above. The rail's elements are of order 4 under its weight: their error is 2e-5, and 1.5e-7 with twice as many.
 TEST(DevicesWithFriction, PassOnThrustAsByShooting) {
-  const Record pipe = record_of("drill-pipe"), rail = record_of("rail-lift");
+  const Record wire = record_of("guidewire-friction"), pipe = record_of("drill-pipe"), rail = record_of("rail-lift");
+  EXPECT_NEAR(monitor(wire, landed(wire, 165.0).monitors, "push"), 0.024571967464, 1e-8 * 0.024571967464);
   EXPECT_NEAR(monitor(pipe, pipe.points.back().monitors, "bit"), 190.8664414, 2e-8 * 190.8664414);
   const RecordEvent& loose = test::event_of(rail, EventKind::value_crossing);
   EXPECT_NEAR(loose.lambda, 18.79786410, 3e-5 * 18.79786410);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -59,6 +60,17 @@ monitor = [{ name = "xb", at = "b", component = "x" }]
 load = [{ on = "l", distributed = [0.0, -7.433434294451756], constant = true }, { on = "l", temperature = 0.020011177938102802 }]
 path = { step = 0.05, stop = { lambda = [-9.0, 1.0] } }
 )toml"));
+}
+
+// A thin wire is pushed without contact, and into the first bend. Within a thousandth of its path the hub alone would
+// press its element to many times its buckling load.
+TEST(EnergyBalance, ThinWiresAreConfirmed) {
+  const auto& devices = example_devices();
+  const auto wire = std::find_if(devices.begin(), devices.end(),
+                                 [](const ExampleDeck& device) { return device.name == "guidewire-friction"; });
+  ASSERT_NE(wire, devices.end());
+  for (const std::string range : {"[-1.0, 10.0]", "[-1.0, 82.0]", "[-1.0, 90.0]"})
+    test::expect_whole(TracedDeck(wire->text, {"path.stop.lambda=" + range}));
 }
 
 // The bound is the error of the quadrature: far below what is dissipated.
