@@ -146,6 +146,9 @@ def with_friction() -> list:
                 Quantity(what, of, by_shooting, "shooting, contact at the same nodes")]
 
     clip = 2400 * 10 * 2**3 / 12
+    R, angle, mu = 60.0, math.pi / 3, 0.2
+    crossing = 6e4 * math.pi / 4 * 0.18**4 / (R * math.sqrt(48 * 1.0 * R))
+    relief = math.exp(-mu * angle)
     return [
         Case("Snap-fit with friction", "examples/snap-fit-friction.toml", {}, [
             *both("insertion", pushed("insert"), snap_fit_by_hand(0.3, 0.5), 1.589465818552),
@@ -153,6 +156,8 @@ def with_friction() -> list:
         Case("Pipe clip with friction", "examples/clip.toml", {}, [
             *both("insertion", pushed("insert"), clip_force(11.0, 0.9, 10.8, clip, 0.3, 1), 4.377915125774),
             *both("removal", pushed("remove"), clip_force(11.0, 0.9, 10.8, clip, 0.3, -1), 6.144239492927)]),
+        Case("Guidewire through an S with friction", "examples/guidewire-friction.toml", {}, both(
+            "push", landed("push", 165), 2 * mu * crossing * (1 + math.sqrt(8) * relief + relief**2), 0.024571967464)),
         Case("Drill pipe that locks up", "examples/drill-pipe.toml", {}, both(
             "force on the bit", at_last("bit"), 1000 * math.exp(-2.5 * 0.4 * 32 * 2000 / 200**2), 190.866441)),
         Case("Rail lifted in the heat", "examples/rail-lift.toml", {}, both(

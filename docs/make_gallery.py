@@ -179,6 +179,12 @@ FRICTION = [
             "Insertion force, removal force",
             "maximum over γ of (r sin γ − a) F_x/(C_zx F_x + C_zz F_z), with the compliance C of a curved beam. F is the pipe's normal at γ, "
             "turned by atan μ"),
+    Picture("guidewire-friction", "Guidewire through an S with friction", "push", "end",
+            "A guidewire through an S",
+            "A guidewire is pushed through two bends of 60°. At each end of a bend it crosses from wall to wall, where friction adds to the "
+            "push; it oscillates by 4 % as nodes pass.",
+            "Push beyond the S",
+            "2 μ F (1 + 2 √2 e^(−μθ) + e^(−2 μθ)) with F = EI/(R √(48 c R)), c half the clearance"),
     Picture("drill-pipe", "Drill pipe that locks up", "force on the bit", "end",
             "A drill pipe that locks up",
             "A rod that has buckled into ten half waves is pushed through a slot with rough walls, the planar model of a drill pipe. "
