@@ -14,6 +14,7 @@
 #include "model/deck/words.hpp"
 #include "model/friction_at_wall.hpp"
 #include "model/spring_force.hpp"
+#include "model/support_reaction.hpp"
 #include "model/wall_force.hpp"
 
 namespace arcwall {
@@ -187,10 +188,10 @@ std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Pla
   if (component == deck::Component::axial_force || component == deck::Component::moment)
     return member_force(from, at, component);
   if (const auto dof = reaction_dof(component)) {
-    if (*dof != Dof::rotation) return reaction_of(from, structure.dof(node.node, *dof));
+    if (*dof != Dof::rotation) return support_reaction(from, structure.dof(node.node, *dof));
     for (const End& end : at)
       if (const auto rotation = end.mesh->rotations[end.position]; rotation && structure.is_ever_held(*rotation))
-        return reaction_of(from, *rotation);
+        return support_reaction(from, *rotation);
     return nullptr;
   }
   for (const End& end : at)
@@ -570,17 +571,6 @@ Watch::Kind kind_of(const MonitorColumn& column, const deck::Deck& deck) {
       return Watch::Kind::inner_force;
   }
   return Watch::Kind::motion;
-}
-
-std::shared_ptr<const Observable> reaction_of(const Measured& from, Index dof) {
-  auto reaction = from.body.reaction(dof);
-  if (from.kinked == nullptr || from.structure.unknown(dof)) return reaction;
-  std::vector<KinkedForce::Part> parts;
-  const auto& springs = from.structure.nodal_terms().law_springs();
-  for (std::size_t i = 0; i < springs.size(); ++i)
-    if (springs[i].joins(dof)) parts.push_back({.spring = i, .sign = springs[i].sign(dof)});
-  if (parts.empty()) return reaction;
-  return std::make_shared<KinkedForce>(*from.kinked, std::move(reaction), std::move(parts));
 }
 
 bool is_of_section_forces(deck::Component component) {

@@ -15,11 +15,9 @@ struct Measured {
   const Body& body;
   const Places& places;
   const ContactQuery* contacts = nullptr;  ///< of the system's states; null where there are none
+  std::vector<std::string> rigid_walls{};  ///< whose forces are unknowns, and not among those of the structure
   const KinkedSprings* kinked = nullptr;   ///< the same where laws have kinks; else null
 };
-
-/// What a support exerts on a degree of freedom of a joint.
-std::shared_ptr<const Observable> reaction_of(const Measured& from, Index dof);
 
 /// What a component of a place is read from; null if the place has no such component.
 std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Place& place, deck::Component component);

@@ -19,6 +19,7 @@
 #include "model/deck_scales.hpp"
 #include "model/event_curve.hpp"
 #include "model/sensitivities.hpp"
+#include "model/support_reaction.hpp"
 
 namespace arcwall {
 
@@ -35,6 +36,12 @@ bool moves_walls(const deck::Deck& deck) {
 
 // By so many times the structure's size loose bodies may move before they count as adrift: a wall may be that far.
 constexpr int farthest = 20;
+
+std::vector<std::string> names_of_walls(const deck::Deck& deck) {
+  std::vector<std::string> names;
+  for (const deck::Wall& wall : deck.walls) names.push_back(wall.name);
+  return names;
+}
 
 bool has_interference(const deck::Deck& deck) {
   return std::any_of(deck.walls.begin(), deck.walls.end(),
@@ -146,10 +153,11 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
                           .body = *body_,
                           .places = described.places,
                           .contacts = contacts(),
+                          .rigid_walls = contact_ ? names_of_walls(*deck_) : std::vector<std::string>{},
                           .kinked = kinked_.get()};
   monitors_ = monitor_columns(*deck_, read_off, problems);
   structure_->nodal_terms().for_each_moved_support(
-      [&](Index dof, double rate) { moved_.push_back({.rate = rate, .reaction = reaction_of(read_off, dof)}); });
+      [&](Index dof, double rate) { moved_.push_back({.rate = rate, .reaction = support_reaction(read_off, dof)}); });
   for (const std::size_t next : grips_of(*whole_deck_, static_cast<std::size_t>(stage_) + 1)) {
     const std::string& point = whole_deck_->prescribed[next].point;
     const Index node = described.places.joints.at(point);

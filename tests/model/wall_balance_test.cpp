@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/derivative_check.hpp"
 #include "tests/model/traced_session.hpp"
@@ -111,6 +112,60 @@ TEST(WallBalance, RatesOfWallForcesAreTheirDerivatives) {
     }
     EXPECT_GT(checked, 6);
   }
+}
+
+// A support bears what a wall exerts on the point that it holds: of a strip whose tip is driven along an inclined wall,
+// rests on a roller on it, or is held in its rotation with a face on it. The sums of all forces and moments are zero,
+// the derivatives are those of the values, and λ does the work of the driven tip's reaction.
+TEST(WallBalance, HoldsWhereASupportHoldsThePointThatTouches) {
+  const std::string strip = R"toml(
+title = "A strip whose tip is on an inclined wall"
+units = { length = "mm", force = "N" }
+material.steel = { E = 210000.0 }
+section.s = { shape = "rectangle", width = 10.0, height = 1.0 }
+point = { A = [0.0, 5.0], B = [100.0, 0.0] }
+member.c = { from = "A", to = "B", theory = "elastica", material = "steel", section = "s", elements = 20 }
+monitor = [{ name = "x", at = "A", component = "reaction-x" }, { name = "z", at = "A", component = "reaction-z" },
+           { name = "m", at = "A", component = "reaction-moment" },
+           { name = "wall-x", wall = "w", component = "force-x" }, { name = "wall-z", wall = "w", component = "force-z" },
+           { name = "wall-m", wall = "w", component = "moment" },
+           { name = "tip-x", at = "B", component = "x" }, { name = "tip-z", at = "B", component = "z" },
+           { name = "held-x", at = "B", component = "reaction-x" }, { name = "held-z", at = "B", component = "reaction-z" },
+           { name = "held-m", at = "B", component = "reaction-moment" }]
+support.A = ["x", "z", "rotation"]
+)toml";
+  const std::string driven = "path = { step = 0.1, stop.lambda = [-1.0, 3.0] }\n";
+  const std::string wall =
+      "[[wall]]\nname = \"w\"\noutline = { type = \"half-plane\", point = [100.0, -1.0], normal = ";
+  const std::vector<std::string> held = {
+      "prescribed = [{ at = \"B\", x = -1.0, rotation = -0.02 }]\nsupport.B = [\"rotation\"]\n" + driven + wall +
+          "[-0.3, 1.0] }\n",
+      "prescribed = [{ at = \"B\", z = -1.0 }]\nsupport.B = [\"rotation\"]\n" + driven + wall + "[-1.0, 1.0] }\n",
+      "support.B = [\"z\", \"rotation\"]\n" + driven + wall + "[-1.0, 1.0] }\nmotion = { x = -1.0 }\n"};
+  for (const std::string& support : held)
+    for (const std::string contact :
+         {"points = \"moving\"", "points = \"nodes\"", "method = \"penalty\"\npenalty = 1e4"})
+      for (const std::string surface : {"axis", "face"}) {
+        if (surface == "face" && contact == "points = \"moving\"") continue;
+        SCOPED_TRACE(support + contact + surface);
+        const Session run =
+            test::traced(strip + support + "contact_surface = \"" + surface + "\"\n[contact]\n" + contact + "\n");
+        bool touches = false;
+        for (const RecordPoint& point : run.points()) {
+          const auto& m = point.monitors;
+          const double arm_x = 100.0 + m[6], arm_z = -5.0 + m[7];
+          const std::array<double, 3> sums{m[0] + m[3] + m[8], m[1] + m[4] + m[9],
+                                           m[2] + m[5] + 5.0 * m[3] + m[10] + arm_x * m[9] - arm_z * m[8]};
+          for (const double sum : sums) EXPECT_NEAR(sum, 0.0, 1e-7 * (1.0 + std::abs(m[2]) + 100.0 * std::abs(m[0])));
+          touches = touches || std::abs(m[4]) > 1.0;
+        }
+        EXPECT_TRUE(touches);
+        const RecordPoint& last = run.points().back();
+        for (const MonitorColumn& column : run.model().monitors()) {
+          if (!column.name.starts_with("held-")) continue;
+          EXPECT_LE(check_gradient(*column.quantity, last.state), 1e-5) << column.name;
+        }
+      }
 }
 
 }  // namespace arcwall::wall_balance_test
