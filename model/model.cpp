@@ -430,7 +430,6 @@ std::optional<State> Model::start(std::string& reason) const {
   TraceOptions options;
   options.step.first = 0.1;
   options.mesh_error_of_forces = options_.mesh_error_of_forces;
-  options.events = EventSearch::none;
   options.target_values.push_back(
       {.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true, .label = "all"});
   if (!loose_holds_.empty()) {
