@@ -4,6 +4,11 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "contact/passing.hpp"
 #include "contact/wall_kink.hpp"
@@ -43,6 +48,31 @@ class PastKink final : public Observable {
 
 }  // namespace
 
+namespace {
+
+using Neighbours = std::vector<std::pair<const Candidate*, const Candidate*>>;
+
+// Points of a wall that follow each other along a member, face by face.
+Neighbours neighbours_along_members(const std::vector<Candidate>& candidates, const std::vector<Candidate>& held) {
+  std::map<std::tuple<std::string, std::string, double>, std::vector<const Candidate*>> sections;
+  for (const auto* const all : {&candidates, &held})
+    for (const Candidate& candidate : *all)
+      if (candidate.obstacle().core())
+        sections[{candidate.label().wall, candidate.label().member, candidate.label().fraction}].push_back(&candidate);
+  Neighbours neighbours;
+  const std::vector<const Candidate*>* before = nullptr;
+  for (const auto& [section, points] : sections) {
+    if (before != nullptr && before->front()->label().wall == std::get<0>(section) &&
+        before->front()->label().member == std::get<1>(section))
+      for (std::size_t face = 0; face < std::min(before->size(), points.size()); ++face)
+        neighbours.emplace_back((*before)[face], points[face]);
+    before = &points;
+  }
+  return neighbours;
+}
+
+}  // namespace
+
 MultiplierContact::MultiplierContact(const Equations& inner, std::vector<Candidate> candidates,
                                      const ContactScales& scales, const ContactLaw& law)
     : inner_(inner), scales_(scales) {
@@ -55,6 +85,7 @@ MultiplierContact::MultiplierContact(const Equations& inner, std::vector<Candida
     if (law.method == ContactLaw::Method::augmented) springs.r = k;
     springs_.push_back(springs);
   }
+  neighbours_ = neighbours_along_members(candidates_, held_);
   const auto rough = [](const Candidate& candidate) { return candidate.friction() > 0.0; };
   if (std::any_of(candidates_.begin(), candidates_.end(), rough))
     rest_friction_ = std::make_shared<const FrictionLayout>(std::vector<FrictionLayout::Contact>(candidates_.size()));
@@ -321,7 +352,8 @@ std::string MultiplierContact::watched_place(const State& state, Index j) const 
 StepVerdict MultiplierContact::check(const CheckedStep& step) const {
   using Fault = StepVerdict::Fault;
   if (step.located) {
-    if (passes_through(step.from, step.to)) return {.fault = Fault::wall_crossed};
+    if (const Candidate* const passed = passing(step.from, step.to))
+      return {.fault = Fault::wall_crossed, .place = words_of(passed->label())};
     for (const Candidate& held : held_)
       if (enters(held, step.from, step.to)) return {.fault = Fault::blocked, .place = words_of(held.label())};
     return {};
@@ -338,16 +370,21 @@ bool MultiplierContact::enters(const Candidate& held, const State& from, const S
   return std::isfinite(before) && before >= -touching && held.gap(to) < -touching;
 }
 
-bool MultiplierContact::passes_through(const State& from, const State& to) const {
+const Candidate* MultiplierContact::passing(const State& from, const State& to) const {
   const double touching = 1e-6 * scales_.length;
   for (std::size_t j = 0; j < candidates_.size(); ++j) {
     const Obstacle& obstacle = candidates_[j].obstacle();
     if (!obstacle.has_other_sides() || from.active_set[j]) continue;
     const TrackedPoint& point = candidates_[j].point();
     const PlaceInStep step{.from = point.position(from), .to = point.position(to)};
-    if (point_passes_through(obstacle, step, from.lambda, to.lambda, touching)) return true;
+    if (point_passes_through(obstacle, step, from.lambda, to.lambda, touching)) return &candidates_[j];
   }
-  return false;
+  const auto in_step = [&](const Candidate& candidate) {
+    return PlaceInStep{.from = candidate.point().position(from), .to = candidate.point().position(to)};
+  };
+  for (const auto& [first, last] : neighbours_)
+    if (line_passes_core(first->obstacle(), in_step(*first), in_step(*last), from.lambda, to.lambda)) return first;
+  return nullptr;
 }
 
 std::optional<PathKink> MultiplierContact::kink_between(const State& from, const State& to) const {

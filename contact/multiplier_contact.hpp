@@ -158,12 +158,14 @@ class MultiplierContact final : public System, public FrictionalContact, public 
   ContactPoint told(const State& state, std::size_t j, double force) const;
   void lay_out(const State& state, Linearization& out) const;
   bool enters(const Candidate& held, const State& from, const State& to) const;
-  bool passes_through(const State& from, const State& to) const;
+  // What passes through its wall between two states: a point, or what lies between it and the next.
+  const Candidate* passing(const State& from, const State& to) const;
   bool comes_behind_an_end(const State& from, const State& to) const;
 
   const Equations& inner_;
   std::vector<Candidate> candidates_;
-  std::vector<Candidate> held_;  // whose points do not move but by λ
+  std::vector<Candidate> held_;                                            // whose points do not move but by λ
+  std::vector<std::pair<const Candidate*, const Candidate*>> neighbours_;  // along a member, of one wall
   ContactScales scales_;
   std::vector<Springs> springs_;
   std::shared_ptr<const FrictionLayout> rest_friction_{};  // of open contacts; null where none has friction

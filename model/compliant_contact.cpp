@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contact/passing.hpp"
 #include "elements/wall_pressure.hpp"
 
 namespace arcwall {
@@ -272,6 +273,16 @@ std::vector<CompliantContact::Place> CompliantContact::places(const State& state
 
 // A pressed part that reaches the end of the wall's surface: there forces jump, which no tangent knows.
 StepVerdict CompliantContact::check(const CheckedStep& step) const {
+  for (std::size_t j = 0; j < walls_.size(); ++j)
+    for (const Pressed& pressed : pressed_[j]) {
+      const Local from = local(step.from, pressed), to = local(step.to, pressed);
+      const auto in_step = [&](double t) {
+        return PlaceInStep{.from = pressed.pressure->place(from.u, t), .to = pressed.pressure->place(to.u, t)};
+      };
+      if (line_passes_core(*walls_[j].obstacle, in_step(0.0), in_step(1.0), step.from.lambda, step.to.lambda))
+        return {.fault = StepVerdict::Fault::wall_crossed,
+                .place = words_of({.wall = walls_[j].name, .member = member_of(j), .fraction = pressed.from})};
+    }
   for (std::size_t j = 0; j < walls_.size(); ++j)
     for (const Pressed& pressed : pressed_[j])
       if (acts(step.to, j) && pressed.pressure->leaves_surface(local(step.to, pressed).u, step.to.lambda))

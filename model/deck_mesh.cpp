@@ -229,7 +229,7 @@ bool DeckMesh::is_complete() const {
   return std::all_of(readings_.begin(), readings_.end(), [](const auto& one) { return one != nullptr; });
 }
 
-const UnilateralSystem& DeckMesh::system() const {
+const System& DeckMesh::system() const {
   if (model_.contact() != nullptr) return *model_.contact();
   if (model_.compliant() != nullptr) return *model_.compliant();
   return model_.structure();

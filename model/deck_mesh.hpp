@@ -20,7 +20,7 @@ class DeckMesh {
   bool is_complete() const;
 
   /// The structure among the walls, with contact at its nodes.
-  const UnilateralSystem& system() const;
+  const System& system() const;
 
   Index size() const { return size_; }
 

@@ -23,6 +23,11 @@ constexpr double at_rest = 1e-12;       // Newton's last correction at rest
 constexpr double no_motion = 1e-8;      // of a step, below which rest is looked for
 constexpr double far_away = 10.0;       // of the start
 
+bool passes_a_wall(const System& system, const State& from, const State& to) {
+  const StepVerdict verdict = system.check({.from = from, .to = to, .located = CheckedStep::LocatedEnd{}});
+  return verdict.fault == StepVerdict::Fault::wall_crossed;
+}
+
 // The drag with which the forces at a state move it so far, if nothing else resists.
 double drag_for(const UnilateralSystem& system, const State& state, double length) {
   Vector F(state.x.size());
@@ -36,8 +41,7 @@ double drag_for(const UnilateralSystem& system, const State& state, double lengt
 
 }  // namespace
 
-Descent descend(const UnilateralSystem& system, const State& start, const MakeFactorization& make,
-                Index& factorizations) {
+Descent descend(const System& system, const State& start, const MakeFactorization& make, Index& factorizations) {
   HeldMinimum minimum(system, make, factorizations);
   Descent descent{.state = start};
   double mu = drag_for(system, start, wanted_motion);
@@ -49,7 +53,7 @@ Descent descend(const UnilateralSystem& system, const State& start, const MakeFa
       descent.end = DescentEnd::cut_off;
       return descent;
     }
-    if (!next || length > longest_motion) {
+    if (!next || length > longest_motion || passes_a_wall(system, descent.state, *next)) {
       if (++refused > most_refused) return descent;
       mu *= shorter_time;
       continue;

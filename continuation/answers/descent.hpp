@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/algebra/factorization.hpp"
-#include "core/unilateral_system.hpp"
+#include "core/system.hpp"
 
 namespace arcwall {
 
@@ -30,8 +30,9 @@ struct Descent {
 /// method with an active set. μ, the inverse of the time step, is so large that each of these is convex and no step is
 /// long. So Π falls from step to step. The unknowns mean the same all along: contacts are those of nodes.
 ///
+/// A step that passes through an obstacle between the contacts is taken in parts, or not at all.
+///
 /// `factorizations`: that it may make; what is left of them when it ends.
-Descent descend(const UnilateralSystem& system, const State& start, const MakeFactorization& make,
-                Index& factorizations);
+Descent descend(const System& system, const State& start, const MakeFactorization& make, Index& factorizations);
 
 }  // namespace arcwall

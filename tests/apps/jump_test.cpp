@@ -408,4 +408,36 @@ motion = { z = -1.0 }
   EXPECT_EQ(told, 1);
 }
 
+// An arch snaps onto a pin that is thinner than an element is long. Pins of radius 6, 5 and 4 stop the crown at -11.90,
+// -12.95 and -13.99 on any mesh; one of radius 2 stops it two further such differences down, and none lets it through.
+TEST(JumpTest, LandsOnAPinThatIsThinnerThanAnElement) {
+  for (const std::string elements : {"20", "40", "80"})
+    for (const double radius : {4.0, 3.0, 2.0}) {
+      SCOPED_TRACE(elements + ", " + std::to_string(radius));
+      const TracedDeck traced(R"toml(
+title = "Arch snaps onto a thin pin"
+material.steel = { E = 2.1e5 }
+section.s = { shape = "rectangle", width = 10.0, height = 1.0 }
+point = { a = [-100.0, 0.0], b = [100.0, 0.0] }
+support = { a = ["x", "z"], b = ["x", "z"] }
+path = { step = 1.0, jumps = true, branches = "jump", stop = { lambda = [-1.0, 40.0] } }
+load = [{ at = "c:0.45", force = [0.0, -1.0] }]
+monitor = [{ name = "crown", at = "c:0.5", component = "z" }, { name = "f", wall = "pin", component = "force-z" }]
+wall = [{ name = "pin", outline = { type = "circle", centre = [3.0, -6.0], radius = )toml" +
+                              std::to_string(radius) + R"toml( } }]
+[member.c]
+from = "a"
+to = "b"
+via = [0.0, 12.0]
+theory = "elastica"
+material = "steel"
+section = "s"
+elements = )toml" + elements + "\n");
+      const RecordPoint& end = traced.record().points.back();
+      EXPECT_EQ(end.lambda, 40.0);
+      EXPECT_GT(end.monitors[1], 20.0);
+      EXPECT_NEAR(end.monitors[0], -13.99 - 1.04 * (4.0 - radius), 0.2);
+    }
+}
+
 }  // namespace arcwall::jump_test

@@ -85,6 +85,24 @@ const std::vector<std::string> theories{"\"euler-bernoulli\"",      "\"elastica\
                                         "\"reissner\"\norder = 1",  "\"reissner\"\norder = 2",
                                         "\"essenburg\"\norder = 1", "\"essenburg\"\norder = 2"};
 
+std::string pushed_strip(const std::string& radius) {
+  return R"toml(
+title = "Strip pushed by a compliant roller"
+material.steel = { E = 2.1e5 }
+section.s = { shape = "rectangle", width = 10.0, height = 1.0 }
+contact = { method = "compliant", law = { stiffness = 50.0 } }
+point = { a = [0.0, 0.0], b = [200.0, 0.0] }
+support = { a = ["x", "z", "rotation"], b = ["z", "rotation"] }
+path = { step = 0.1, stop = { lambda = [-1.0, 40.0] } }
+monitor = [{ name = "mid", at = "c:0.5", component = "z" }, { name = "f", wall = "peg", component = "force-z" }]
+member.c = { from = "a", to = "b", theory = "elastica", material = "steel", section = "s", elements = 20 }
+[[wall]]
+name = "peg"
+motion = { z = 1.0 }
+outline = { type = "circle", centre = [120.0, -10.0], radius = )toml" +
+         radius + " }\n";
+}
+
 }  // namespace
 
 // Differences of fourth order over 5e-5, at random states. The least gap of two elements or faces has a kink where both
@@ -688,6 +706,25 @@ TEST(CompliantWalls, MayHaveLawsOfTheirOwn) {
   EXPECT_EQ(last(traced(deck), 1), last(traced(own), 1));
   EXPECT_EQ(last(traced(deck, {"contact.law.stiffness=2e5"}), 1), last(traced(own, {"wall.bed.law.stiffness=2e5"}), 1));
   EXPECT_GT(last(traced(deck, {"contact.law.stiffness=2e5"}), 1), last(traced(deck), 1));
+}
+
+// A roller that moves through a strip within one step would leave it without force. It pushes the strip by as much in
+// short steps and long ones: at 40, 32.14 in the middle with 223.5, where a rigid roller pushes with 246.9.
+TEST(CompliantWalls, DoNotMoveThroughAMemberInOneStep) {
+  for (const std::string radius : {"3.0", "1.0"}) {
+    const Session fine = traced(pushed_strip(radius), {"path.max_step=0.02"});
+    EXPECT_GT(last(fine, 1), 200.0);
+    EXPECT_LT(last(fine, 1), 246.9);
+    for (const std::string step : {"0.1", "1.0", "5.0"}) {
+      SCOPED_TRACE(radius + ", " + step);
+      const Session run = traced(pushed_strip(radius), {"path.step=" + step});
+      EXPECT_EQ(run.points().back().lambda, 40.0);
+      EXPECT_NEAR(last(run, 1), last(fine, 1), 1e-6 * last(fine, 1));
+      EXPECT_NEAR(last(run, 0), last(fine, 0), 1e-6 * last(fine, 0));
+    }
+    if (radius == "3.0") EXPECT_NEAR(last(fine, 1), 223.5, 0.1);
+    if (radius == "3.0") EXPECT_NEAR(last(fine, 0), 32.14, 0.01);
+  }
 }
 
 }  // namespace arcwall::compliant_test

@@ -123,4 +123,26 @@ TEST(Rollers, ASpringAtAJointLeavesContactFreeToSlide) {
   }
 }
 
+// Contact at nodes does not feel a roller between two of them. A path that would lead the roller through the strip ends
+// there and names it; to where moving contact finds the same force, the run holds.
+TEST(Rollers, ARollerDoesNotSlipThroughBetweenNodes) {
+  const std::string strip =
+      "title = \"a strip pushed by a roller\"\nsupport = { a = [\"x\", \"z\", \"rotation\"], b = [\"z\", \"rotation\"] "
+      "}\n"
+      "path = { step = 0.1, stop = { lambda = [-1.0, 40.0] } }\nmaterial.s = { E = 2.1e5 }\n"
+      "section.r = { shape = \"rectangle\", width = 10.0, height = 1.0 }\n"
+      "point = { a = [0.0, 0.0], b = [200.0, 0.0] }\n"
+      "monitor = [{ name = \"mid\", at = \"c:0.5\", component = \"z\" }]\n"
+      "wall = [{ name = \"peg\", motion = { z = 1.0 }, outline = { type = \"circle\", centre = [120.0, -10.0], radius "
+      "= 3.0 } }]\n"
+      "contact.points = \"nodes\"\nmember.c = { from = \"a\", to = \"b\", theory = \"reissner\", material = \"s\", "
+      "section = "
+      "\"r\", elements = 20 }\n";
+  const Session run = traced(strip);
+  for (const RecordPoint& point : run.record().points) EXPECT_GE(point.monitors[0], -1e-9) << point.lambda;
+  const BranchEnd& end = *run.record().branches.back().end;
+  EXPECT_EQ(end.reason, EndReason::not_modelled);
+  EXPECT_NE(end.detail.find("peg at c:"), std::string::npos) << end.detail;
+}
+
 }  // namespace arcwall::rollers_test
