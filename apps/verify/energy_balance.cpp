@@ -95,18 +95,23 @@ struct Rate {
   double value = 0.0, error = 0.0;
 };
 
-// f′(0) by differences of order 4 (after Ridders, Adv. Eng. Softw. 4, 1982): with shorter steps their own error falls,
-// that of round-off grows; of two in a row those that agree best are taken. f is NaN where the steps are too long for
-// it.
+// f′(0) by differences of order 4 over shorter and shorter steps h (after Ridders, Adv. Eng. Softw. 4, 1982). How much
+// two in a row differ is the error of the formula or round-off, which is c/h: so an error is at least what any shorter
+// step shows of c. The value of the least error is taken. f is NaN where a step is too long for it.
 Rate refined_derivative(const auto& f, double longest) {
-  constexpr int steps = 9;
+  constexpr std::size_t steps = 9;
   constexpr double shorter = 0.25;
+  std::array<double, steps> h{}, value{};
+  for (std::size_t i = 0; i < steps; ++i) {
+    h[i] = i == 0 ? longest : shorter * h[i - 1];
+    value[i] = derivative(f, h[i]);
+  }
   Rate best{.value = std::numeric_limits<double>::quiet_NaN(), .error = std::numeric_limits<double>::infinity()};
-  double before = std::numeric_limits<double>::quiet_NaN(), h = longest;
-  for (int i = 0; i < steps; ++i, h *= shorter) {
-    const double value = derivative(f, h);
-    if (const double error = std::abs(value - before); error < best.error) best = {.value = value, .error = error};
-    before = value;
+  double c = 0.0;
+  for (std::size_t i = steps - 1; i > 0 && std::isfinite(value[i - 1]); --i) {
+    c = std::max(c, std::abs(value[i] - value[i - 1]) * h[i]);
+    if (i + 1 == steps) continue;  // one alone may agree by chance
+    if (c / h[i] < best.error) best = {.value = value[i], .error = c / h[i]};
   }
   return best;
 }

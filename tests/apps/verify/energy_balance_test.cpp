@@ -46,9 +46,9 @@ TEST(EnergyBalance, RunsWithFrictionAreConfirmed) {
 }
 
 // A strip that is hardly heated lies on its floor. Its energies are sums of great parts that cancel, of which those of
-// friction are small: round-off of 9e-13 is no finding.
+// friction are small: round-off of 9e-13 is no finding. At 0.4 degrees differences of rounded energies agree by chance.
 TEST(EnergyBalance, RoundOffOfLargePartsIsNoFinding) {
-  test::expect_whole(TracedDeck(R"toml(
+  const std::string strip = R"toml(
 title = "strip"
 material.m = { E = 70000000000.0, nu = 0.3, expansion = 1e-5 }
 section.s = { shape = "rectangle", width = 0.031125399347804984, height = 0.031125399347804984 }
@@ -59,7 +59,9 @@ contact.points = "nodes"
 monitor = [{ name = "xb", at = "b", component = "x" }]
 load = [{ on = "l", distributed = [0.0, -7.433434294451756], constant = true }, { on = "l", temperature = 0.020011177938102802 }]
 path = { step = 0.05, stop = { lambda = [-9.0, 1.0] } }
-)toml"));
+)toml";
+  for (const std::string heat : {"0.020011177938102802", "0.4", "0.9"})
+    test::expect_whole(TracedDeck(strip, {"load.1.temperature=" + heat}));
 }
 
 // A thin wire is pushed without contact, and into the first bend. Within a thousandth of its path the hub alone would
