@@ -123,6 +123,8 @@ ARCWALL_IN_PLACE void respond_in_lanes(const Properties& of, const End& first, c
   const BasicChordMotion<Lanes> at =
       motion_between(second.x - first.x, second.z - first.z, first.angle, second.angle, chord, slope1, slope2);
   const ClassicBeamEnergy<Lanes> U(material, at);
+  out.energy = U.energy();
+  if (wanted == Wanted::energy) return;
   const BasicChordSlopes<Lanes> slopes = U.slopes();
   nodal_forces(at, slopes, out.force);
   if (wanted == Wanted::force) return;

@@ -32,11 +32,12 @@ class SlidingBeamLanes {
 
   /// Derivatives are by x1, z1, angle1, x2, z2, angle2.
   struct Response {
+    Lanes energy;
     Lanes force[6];
     Lanes stiffness[36];     ///< the lower triangle, column-major
     Lanes force_rate[2][6];  ///< of the force by the material coordinate of either end
   };
-  enum class Wanted { force, stiffness, rates };  ///< each with those before it
+  enum class Wanted { energy, force, stiffness, rates };  ///< each with those before it
 
   void respond(const End& first, const End& second, Wanted wanted, Response& out) const;
 

@@ -391,9 +391,9 @@ void SlidingStructureMesh::add(Index strand, Index position, const Response& res
 }
 
 double SlidingStructureMesh::energy(const MeshState& now) const {
-  double energy = 0.0;
-  for (Index r = 0; r < structure_.strands(); ++r)
-    for (Index e = 0; e < mesh_of(r).elements; ++e) energy += respond(r, e, now, false).energy;
+  double energy = energy_of_fours(now);
+  for (const auto& [r, e] : others_) energy += respond_unloaded(r, e, now, false).energy;
+  for (const InnerLoad& load : inner_loads_) energy += respond(load, element_of(load, now), now, false).energy;
   return energy + structure_.nodal_.energy(now.lambda, [&](Index dof) { return structure_.value(*this, now, dof); });
 }
 

@@ -177,6 +177,12 @@ class SlidingStructureMesh final : public SlidingMesh {
   using Rest = SlidingBeamLanes::Rest;
   void number_fours();
   Rest rest_from(Index strand, Index position, Index most, const MeshState& now) const;
+  // visit(four, what it is at rest at the first and at the second node of each element)
+  template <typename Visit>
+  void for_each_four(const MeshState& now, const Visit& visit) const;
+  SlidingBeamLanes::Response respond(const Four& four, const Rest& first, const Rest& second, const MeshState& now,
+                                     SlidingBeamLanes::Wanted wanted) const;
+  double energy_of_fours(const MeshState& now) const;
   void add_fours(const MeshState& now, Eigen::Ref<Vector> F, Linearization* out) const;
   void add(const Four& four, const Rest& first, const Rest& second, const MeshState& now, Eigen::Ref<Vector> F,
            Linearization* out) const;

@@ -42,16 +42,16 @@ void SlidingStructureMesh::number_fours() {
   }
 }
 
-// The forces of fours, and where `out` is not null the derivatives of these. What they are at rest is found once at
-// each node.
-void SlidingStructureMesh::add_fours(const MeshState& now, Eigen::Ref<Vector> F, Linearization* out) const {
+// What they are at rest is found once at each node.
+template <typename Visit>
+void SlidingStructureMesh::for_each_four(const MeshState& now, const Visit& visit) const {
   const Four* before = nullptr;
   Rest behind;  // from where that one ends
   for (const Four& four : fours_) {
     const Index last = four.count - 1;
     if (last + 1 < Lanes::count) {  // the last stands in for those that are missing
       const Rest first = rest_from(four.strand, four.position, four.position + last, now);
-      add(four, first, rest_from(four.strand, four.position + 1, four.position + 1 + last, now), now, F, out);
+      visit(four, first, rest_from(four.strand, four.position + 1, four.position + 1 + last, now));
       before = nullptr;
       continue;
     }
@@ -60,9 +60,24 @@ void SlidingStructureMesh::add_fours(const MeshState& now, Eigen::Ref<Vector> F,
         before != nullptr && before->strand == four.strand && before->position + Lanes::count == four.position;
     const Rest first = goes_on ? behind : rest_from(four.strand, four.position, most, now);
     behind = rest_from(four.strand, end, most, now);
-    add(four, first, SlidingBeamLanes::next_of(first, behind), now, F, out);
+    visit(four, first, SlidingBeamLanes::next_of(first, behind));
     before = &four;
   }
+}
+
+// The forces of fours, and where `out` is not null the derivatives of these.
+void SlidingStructureMesh::add_fours(const MeshState& now, Eigen::Ref<Vector> F, Linearization* out) const {
+  for_each_four(
+      now, [&](const Four& four, const Rest& first, const Rest& second) { add(four, first, second, now, F, out); });
+}
+
+double SlidingStructureMesh::energy_of_fours(const MeshState& now) const {
+  double energy = 0.0;
+  for_each_four(now, [&](const Four& four, const Rest& first, const Rest& second) {
+    const Lanes of_elements = respond(four, first, second, now, SlidingBeamLanes::Wanted::energy).energy;
+    for (int lane = 0; lane < four.count; ++lane) energy += of_elements[lane];
+  });
+  return energy;
 }
 
 // At four nodes from one on; at the node `most` for those beyond it.
@@ -76,9 +91,8 @@ SlidingBeamLanes::Rest SlidingStructureMesh::rest_from(Index strand, Index posit
   return described.beams->rest_at(Lanes(at(0), at(1), at(2), at(3)));
 }
 
-void SlidingStructureMesh::add(const Four& four, const Rest& at_first, const Rest& at_second, const MeshState& now,
-                               Eigen::Ref<Vector> F, Linearization* out) const {
-  using Wanted = SlidingBeamLanes::Wanted;
+SlidingBeamLanes::Response SlidingStructureMesh::respond(const Four& four, const Rest& at_first, const Rest& at_second,
+                                                         const MeshState& now, SlidingBeamLanes::Wanted wanted) const {
   SlidingBeamLanes::End first{.rest = at_first, .x = 0.0, .z = 0.0, .angle = 0.0}, second = first;
   second.rest = at_second;
   if (four.inside) {
@@ -100,11 +114,17 @@ void SlidingStructureMesh::add(const Four& four, const Rest& at_first, const Res
         end->angle.set(lane, place.angle);
       }
   }
-  const bool between_breakpoints = four.breakpoint[0] != held || four.breakpoint[1] != held;
-  const Wanted wanted = out == nullptr ? Wanted::force : between_breakpoints ? Wanted::rates : Wanted::stiffness;
   SlidingBeamLanes::Response response;
   structure_.at(four.strand).beams->respond(first, second, wanted, response);
+  return response;
+}
 
+void SlidingStructureMesh::add(const Four& four, const Rest& at_first, const Rest& at_second, const MeshState& now,
+                               Eigen::Ref<Vector> F, Linearization* out) const {
+  using Wanted = SlidingBeamLanes::Wanted;
+  const bool between_breakpoints = four.breakpoint[0] != held || four.breakpoint[1] != held;
+  const Wanted wanted = out == nullptr ? Wanted::force : between_breakpoints ? Wanted::rates : Wanted::stiffness;
+  const SlidingBeamLanes::Response response = respond(four, at_first, at_second, now, wanted);
   add_nodal(four, response.force, F.data());
   if (out == nullptr) return;
   const auto entry_of = [&](Index entry, std::size_t lane) {

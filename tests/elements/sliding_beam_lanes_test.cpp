@@ -79,6 +79,7 @@ TEST(SlidingBeamLanes, AreTheBeamsOneByOne) {
           const Eigen::Matrix<double, 6, 1> f = T.transpose() * expected.force;
           const double K_size = K.cwiseAbs().maxCoeff();
           const int lane = static_cast<int>(i);
+          EXPECT_NEAR(found.energy[lane], expected.energy, 1e-13 * K_size);
           for (Index row = 0; row < 6; ++row) {
             EXPECT_NEAR(found.force[row][lane], f[row], 1e-13 * K_size);
             for (Index column = 0; column <= row; ++column)
@@ -100,16 +101,19 @@ TEST(SlidingBeamLanes, LeaveOutWhatIsNotWanted) {
   const Places second{.s = {0.3, 0.5, 0.7, 0.9},
                       .place = {Vec2(0.3, 0.1), Vec2(1.3, 0), Vec2(2.3, -0.1), Vec2(3.3, 1)}};
   const SlidingBeamLanes beams(shape, 100.0, 1.0);
-  SlidingBeamLanes::Response all, stiffness, force;
+  SlidingBeamLanes::Response all, stiffness, force, energy;
   beams.respond(first.of(beams), second.of(beams), Wanted::rates, all);
   beams.respond(first.of(beams), second.of(beams), Wanted::stiffness, stiffness);
   beams.respond(first.of(beams), second.of(beams), Wanted::force, force);
-  for (int lane = 0; lane < 4; ++lane)
+  beams.respond(first.of(beams), second.of(beams), Wanted::energy, energy);
+  for (int lane = 0; lane < 4; ++lane) {
+    EXPECT_EQ(energy.energy[lane], all.energy[lane]);
     for (Index row = 0; row < 6; ++row) {
       EXPECT_EQ(force.force[row][lane], all.force[row][lane]);
       EXPECT_EQ(stiffness.force[row][lane], all.force[row][lane]);
       EXPECT_EQ(stiffness.stiffness[row][lane], all.stiffness[row][lane]);
     }
+  }
 }
 
 // Of places that follow each other each is found once.
