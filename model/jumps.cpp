@@ -445,12 +445,12 @@ class Falls {
   }
 
   // Whether a structure is again on the way to an event, so that the loop closes: on its branch before it, or where the
-  // branch's first point is reached by λ alone.
+  // branch's first point is reached by λ alone, as the structure is stable up to there.
   bool is_before(const RecordEvent& event, const RecordJump& jump, const State& state) const {
     constexpr double same = 1e-6;
     if (jump.on_branch) return jump.on_branch == event.branch && jump.arc <= event.arc;
     const RecordPoint& first = first_point(event.branch);
-    const auto there = at_lambda(model_, state, first.lambda);
+    const auto there = at_lambda(model_, state, first.lambda, Follow::stable_path);
     return there && mesh_.distance(mesh_.unknowns(there->state), mesh_.unknowns(first.state)) <= same;
   }
 

@@ -19,13 +19,14 @@ TraceOptions options_towards(const Model& model, const State& from, double lambd
   return options;
 }
 
-std::optional<OnPath> at_lambda(const Model& model, const State& from, double lambda) {
+std::optional<OnPath> at_lambda(const Model& model, const State& from, double lambda, Follow follow) {
   TraceOptions options = options_towards(model, from, lambda);
   options.events = EventSearch::none;
   options.max_points = 100;
   Tracer tracer(model.system(), from, options);
   OnPath found;
   while (const auto arc = tracer.next()) {
+    if (follow == Follow::stable_path && arc->to.count.unstable.value_or(0) > 0) return std::nullopt;
     found.state = arc->to.state;
     found.arc = arc->to.arc;
     found.unstable = arc->to.count.unstable;

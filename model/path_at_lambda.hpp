@@ -20,8 +20,11 @@ struct OnPath {
 /// What to trace a path with that begins with λ towards a value and ends there.
 TraceOptions options_towards(const Model& model, const State& from, double lambda);
 
+/// Which path is followed: all of it, or no further than it is stable.
+enum class Follow { path, stable_path };
+
 /// From a point of the path to the λ, along the path; empty where it does not lead there.
-std::optional<OnPath> at_lambda(const Model& model, const State& from, double lambda);
+std::optional<OnPath> at_lambda(const Model& model, const State& from, double lambda, Follow follow = Follow::path);
 
 /// The points of a record between each of which and the next one of its branch the path passes through a λ.
 std::vector<std::size_t> crossings(const Record& record, double lambda);
