@@ -191,20 +191,18 @@ void add_slides(const PointAtHand& at, Index n, Triplets& K) {
     State state = at.point.state;
     state.x[pinched[static_cast<std::size_t>(i)].coordinate] += by_i;
     state.x[pinched[static_cast<std::size_t>(j)].coordinate] += by_j;
-    return potentials(at.model, state);
+    return potentials(at.model, at.members, state);
   };
   const auto energy = [&](Index i, double by_i, Index j, double by_j) {
     double sum = 0.0;
-    for (const Potential& potential : moved(i, by_i, j, by_j)) sum += potential.energy(potential.at);
+    for (const Potential& potential : moved(i, by_i, j, by_j)) sum += potential.energy;
     return sum;
   };
   const auto forces_at = [&](Index i, double by) {
     Vector sum = Vector::Zero(n);
-    for (const Potential& potential : moved(i, by, i, 0.0)) {
-      const Vector gradient = potential.gradient(potential.at);
+    for (const Potential& potential : moved(i, by, i, 0.0))
       for (std::size_t k = 0; k < potential.unknowns.size(); ++k)
-        if (potential.unknowns[k] >= 0) sum[potential.unknowns[k]] += gradient[static_cast<Index>(k)];
-    }
+        if (potential.unknowns[k] >= 0) sum[potential.unknowns[k]] += potential.gradient[static_cast<Index>(k)];
     return sum;
   };
   for (Index i = 0; i < slides; ++i) {
@@ -231,7 +229,7 @@ SecondVariation second_variation(const PointAtHand& at, Supports supports) {
   const auto slides = static_cast<Index>(at.touches.pinched.size());
   const Index without = structure_unknowns(at.model, at.point.state) + (supports == Supports::dead ? 1 : 0);
   SecondVariation sum{.unknowns = without + slides};
-  for (std::size_t e = 0; e < at.potentials.size(); ++e) add_block(sum.K, at.potentials[e].unknowns, at.stiffness[e]);
+  for (const Potential& potential : at.potentials) add_block(sum.K, potential.unknowns, potential.stiffness);
   if (supports == Supports::dead) add_moved_supports(at, without - 1, sum.K);
   if (slides > 0) add_slides(at, without, sum.K);
   for (const Touch& touch : at.touches.all) {
@@ -269,9 +267,10 @@ SecondVariation second_variation(const PointAtHand& at, Supports supports) {
 // Lengths and angles are made comparable: D K D has a unit diagonal.
 Vector comparable(const PointAtHand& at, const SecondVariation& of, const ZeroEigenvalue& zero) {
   Vector least = Vector::Constant(of.unknowns, 1e-300);
-  for (std::size_t e = 0; zero.of_parts > 0.0 && e < at.potentials.size(); ++e)
-    for (const Index unknown : at.potentials[e].unknowns)
-      if (unknown >= 0) least[unknown] += zero.of_parts * at.stiffness[e].cwiseAbs().maxCoeff();
+  if (zero.of_parts > 0.0)
+    for (const Potential& potential : at.potentials)
+      for (const Index unknown : potential.unknowns)
+        if (unknown >= 0) least[unknown] += zero.of_parts * potential.stiffness.cwiseAbs().maxCoeff();
   return Vector(of.matrix(true).diagonal()).cwiseAbs().cwiseMax(least).cwiseSqrt().cwiseInverse();
 }
 

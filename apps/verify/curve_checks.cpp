@@ -86,7 +86,8 @@ class CurveVerifier {
         .force = model.contact() != nullptr ? model.contact()->scales().force : model.structure().force_scale()};
     const std::vector<PlainWall> walls = walls_of(model.deck());
     const RecordPoint as_of_run{.lambda = state.lambda, .state = state};
-    const PointAtHand at = at_hand(model, as_of_run, walls, scales);
+    const PlainMembers members(model);
+    const PointAtHand at = at_hand(model, members, as_of_run, walls, scales);
     check_contacts(at, findings);
     check_equilibrium(at, findings);
     check_compliant_walls(model, at.walls, state, findings);

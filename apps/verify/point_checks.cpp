@@ -48,25 +48,24 @@ Vector uncertainty(const PointAtHand& at) {
   return off;
 }
 
-Vector made_by(const PointAtHand& at, std::size_t potential, const Vector& off) {
-  const std::vector<Index>& unknowns = at.potentials[potential].unknowns;
+Vector made_by(const Potential& potential, const Vector& off) {
+  const std::vector<Index>& unknowns = potential.unknowns;
   Vector here = Vector::Zero(static_cast<Index>(unknowns.size()));
   for (std::size_t i = 0; i < unknowns.size(); ++i)
     if (unknowns[i] >= 0) here[static_cast<Index>(i)] = off[unknowns[i]];
-  return at.stiffness[potential].cwiseAbs() * here;
+  return potential.stiffness.cwiseAbs() * here;
 }
 
 bool is_well_formed(const Model& model, const State& state) {
   return model.system().size(state.active_set) == state.x.size() && state.x.allFinite() && std::isfinite(state.lambda);
 }
 
-PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vector<PlainWall>& walls,
-                    const Scales& scales) {
-  PointAtHand at{.model = model, .point = point, .scales = scales};
+PointAtHand at_hand(const Model& model, const PlainMembers& members, const RecordPoint& point,
+                    const std::vector<PlainWall>& walls, const Scales& scales) {
+  PointAtHand at{.model = model, .members = members, .point = point, .scales = scales};
   at.walls = walls_at(walls, point.state.lambda);
   at.touches = touches(model, at.walls, point.state);
-  at.potentials = potentials(model, point.state);
-  for (const Potential& potential : at.potentials) at.stiffness.push_back(stiffness(potential));
+  at.potentials = potentials(model, members, point.state);
   return at;
 }
 
@@ -124,10 +123,10 @@ struct Balance {
   double share(Index i) const { return std::abs(F[i]) / allowed[i]; }
 };
 
-// Forces by differences of energies; what may be left is the stiffness times what the unknowns may be off by, and what
-// differences are off by.
+// Forces by the derivatives of energies; what may be left is the stiffness times what the unknowns may be off by, and
+// what differences of gaps are off by.
 Balance balance(const PointAtHand& at) {
-  constexpr double differences = 1e-10;  // of the sum of the parts; 1e-12 to 1e-11 measured
+  constexpr double differences = 1e-10;  // of the sum of the parts
   Balance sum{.F = -point_loads(at.model, at.point.state)};
   Vector parts = sum.F.cwiseAbs();
   sum.allowed = Vector::Constant(parts.size(), 1e-300);
@@ -137,11 +136,10 @@ Balance balance(const PointAtHand& at) {
     add_to(sum.F, unknowns, part);
     add_to(parts, unknowns, part.cwiseAbs());
   };
-  for (std::size_t e = 0; e < at.potentials.size(); ++e) {
-    const Potential& potential = at.potentials[e];
-    add(potential.unknowns, forces(potential));
-    add_to(sum.allowed, potential.unknowns, made_by(at, e, off));
-    add_to(sum.rounded, potential.unknowns, made_by(at, e, digits));
+  for (const Potential& potential : at.potentials) {
+    add(potential.unknowns, potential.gradient);
+    add_to(sum.allowed, potential.unknowns, made_by(potential, off));
+    add_to(sum.rounded, potential.unknowns, made_by(potential, digits));
   }
   for (const Touch& touch : at.touches.all)
     if (touch.closed) {
@@ -260,10 +258,9 @@ Energy energy(const PointAtHand& at) {
     sum.magnitude += std::abs(part);
   };
   const Vector digits = last_digits(at);
-  for (std::size_t e = 0; e < at.potentials.size(); ++e) {
-    const Potential& potential = at.potentials[e];
-    add(potential.energy(potential.at));
-    const Vector by_digits = forces(potential).cwiseAbs() + made_by(at, e, digits);
+  for (const Potential& potential : at.potentials) {
+    add(potential.energy);
+    const Vector by_digits = potential.gradient.cwiseAbs() + made_by(potential, digits);
     for (std::size_t i = 0; i < potential.unknowns.size(); ++i)
       if (const Index unknown = potential.unknowns[i]; unknown >= 0)
         sum.rounded += by_digits[static_cast<Index>(i)] * digits[unknown];

@@ -21,19 +21,19 @@ constexpr double gap_left = 1e-10;
 /// A point of the record with what is known of it.
 struct PointAtHand {
   const Model& model;
+  const PlainMembers& members;
   const RecordPoint& point;
   const Scales& scales;
   std::vector<PlainWall> walls{};  ///< where they are at the point; `touches` refers to them
   Touches touches{};
   std::vector<Potential> potentials{};
-  std::vector<Matrix> stiffness{};  ///< of each potential
 };
 
 /// Whether the state has as many finite unknowns as its active set asks for.
 bool is_well_formed(const Model& model, const State& state);
 
-PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vector<PlainWall>& walls,
-                    const Scales& scales);
+PointAtHand at_hand(const Model& model, const PlainMembers& members, const RecordPoint& point,
+                    const std::vector<PlainWall>& walls, const Scales& scales);
 
 /// Gaps and forces: g ≥ 0 of open contacts, p ≥ 0 and g + c p = 0 of closed ones, nothing inside a wall between nodes;
 /// tangency of contact that slides. `waits`: a stretch that a change of contact makes is not there yet
@@ -48,7 +48,7 @@ void check_equilibrium(const PointAtHand& at, Findings& findings);
 Vector uncertainty(const PointAtHand& at);
 
 /// The sizes of the forces that these make of one potential, by its unknowns.
-Vector made_by(const PointAtHand& at, std::size_t potential, const Vector& off);
+Vector made_by(const Potential& potential, const Vector& off);
 
 /// The total potential at the state.
 struct Energy {

@@ -140,8 +140,8 @@ bool has_spring_at(const deck::Deck& deck, const deck::Place& place) {
 Vec2 uncertainty_of_jump(const PointAtHand& at) {
   const Vector off = uncertainty(at);
   Vec2 most = Vec2::Zero();
-  for (std::size_t e = 0; e < at.potentials.size(); ++e)
-    if (at.potentials[e].at.size() >= 4) most = most.cwiseMax(made_by(at, e, off).head<2>());
+  for (const Potential& potential : at.potentials)
+    if (potential.unknowns.size() >= 4) most = most.cwiseMax(made_by(potential, off).head<2>());
   return 2.0 * most;
 }
 

@@ -1,68 +1,145 @@
-#include <memory>
+#include <algorithm>
 
-#include "apps/verify/moved_unknowns.hpp"
+#include "apps/verify/differences.hpp"
+#include "apps/verify/line_energy.hpp"
 #include "apps/verify/potential_rooms.hpp"
 
 namespace arcwall::verify {
 
 namespace {
 
-// What all elements of a state share.
-struct SlidingElements {
-  const SlidingMesh& mesh;
-  Vector s{};  // of the breakpoints
-  double lambda = 0.0;
-  MovedUnknowns x;
+// A part of a strand between two material coordinates, as a part of the member in its middle: the members that a strand
+// runs through are alike, and of one line or one circle.
+struct PartOfStrand {
+  const PlainMember& member;
+  double first, last;  // fractions of the member, descending where the strand runs against it
+  Stretch stretch{};
+
+  bool is_reversed() const { return last < first; }
 };
 
-Potential sliding_potential(const std::shared_ptr<const SlidingElements>& of, Index strand, Index position,
-                            double bends_over) {
-  const auto& [mesh, s, lambda, x] = *of;
-  const NodeUnknowns first = mesh.node_unknowns(strand, position), second = mesh.node_unknowns(strand, position + 1);
-  const double length = mesh.coordinate(strand, position + 1, s) - mesh.coordinate(strand, position, s);
-  const double part = ElementSize{.length = length, .bends_over = bends_over}.part();
-  Potential potential{.at = Vector::Zero(6), .steps = Vector(6)};
-  for (const NodeUnknowns& node : {first, second})
-    for (const Index unknown : node) potential.unknowns.push_back(unknown);
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Index unknown = potential.unknowns[i];
-    if (unknown >= 0) potential.at[static_cast<Index>(i)] = x.value(unknown);
-    potential.steps[static_cast<Index>(i)] = part * step_of(kind_of(i, 3), length);
+PartOfStrand part_of_strand(const SlidingStructure& body, const PlainMembers& members, Index strand, double S1,
+                            double S2) {
+  const auto [name, middle] = body.label({.strand = strand, .s = 0.5 * (S1 + S2)});
+  const PlainMember& member = members.named(name);
+  const std::vector<SlidingStructure::MemberPart> parts = body.parts_of(name);
+  const auto part = std::find_if(parts.begin(), parts.end(), [&, middle = middle](const auto& one) {
+    return one.strand == strand && middle >= one.least_fraction() && middle <= one.greatest_fraction();
+  });
+  const double rate = (part->last_fraction - part->first_fraction) / (part->to - part->from);
+  const auto fraction = [&](double S) { return part->first_fraction + rate * (S - part->from); };
+  PartOfStrand out{.member = member, .first = fraction(S1), .last = fraction(S2)};
+  const double L = member.length();
+  if (!member.shape().deviations().empty()) {  // such a member is a strand by itself
+    const DividedPart divided = member.shape().divided(out.first * L, out.last * L);
+    out.stretch = {.length = divided.length, .chord = divided.chord};
+    for (std::size_t k = 0; k < out.stretch.angles.size(); ++k) out.stretch.angles[k] = divided.at[k].angle;
+    return out;
   }
-  potential.energy = [of, strand, position, unknowns = potential.unknowns](const Vector& u) {
-    return of->x.with(unknowns, u, [&](const Vector& moved) {
-      return of->mesh.element_energy(strand, position, {moved, of->s, of->lambda});
-    });
+  const auto at = [&](double S) { return body.undeformed({.strand = strand, .s = S}, true); };
+  out.stretch = {.length = S2 - S1, .chord = at(S2).position - at(S1).position};
+  for (std::size_t k = 0; k < out.stretch.angles.size(); ++k)
+    out.stretch.angles[k] = at(S1 + double(k) / 3.0 * (S2 - S1)).angle;
+  return out;
+}
+
+// A point load inside an element: −P·(r − R), with the second derivatives by differences of the first.
+LocalEnergy load_inside(const SlenderElement& element, const EndsMotion& motion, double fraction, const Vec2& force,
+                        const Vec2& rest) {
+  const auto gradient = [&](const EndsMotion& at) {
+    return Vector(-place_inside(element, at, fraction).gradient.transpose() * force);
   };
-  potential.gradient = [of, strand, position, unknowns = potential.unknowns](const Vector& u) {
-    return of->x.with(unknowns, u, [&](const Vector& moved) {
-      const SlidingMesh::EndForces ends = of->mesh.end_forces(strand, position, {moved, of->s, of->lambda});
-      Vector gradient(6);
-      gradient << ends[0], ends[1];
-      return gradient;
-    });
-  };
-  limit_steps(length, 3, potential);
-  return potential;
+  LocalEnergy out(6);
+  const Vec2 place = motion.first + place_inside(element, motion, fraction).offset;
+  out.energy = -force.dot(place - rest);
+  out.gradient = gradient(motion);
+  constexpr double part = 1e-4;  // of the element's length, or an angle
+  for (Index i = 0; i < 6; ++i) {
+    const double step = i % 3 == 2 ? part : part * element.stretch.length;
+    out.stiffness.col(i) = derivative(
+        [&](double by) {
+          EndsMotion moved = motion;
+          if (i == 2) moved.turn1 += by;
+          if (i == 5) moved.turn2 += by;
+          if (i % 3 != 2) (i < 3 ? moved.first : moved.second)[i % 3] += by;
+          return gradient(moved);
+        },
+        step);
+  }
+  out.stiffness = 0.5 * (out.stiffness + out.stiffness.transpose()).eval();
+  return out;
+}
+
+// The same of one that a zone of contact hands on to the nodes beside it.
+LocalEnergy load_on_chord(const Stretch& stretch, const EndsMotion& motion, double fraction, const Vec2& force,
+                          const Vec2& rest) {
+  LocalEnergy out(6);
+  const Vec2 place = (1.0 - fraction) * motion.first + fraction * (stretch.chord + motion.second);
+  out.energy = -force.dot(place - rest);
+  out.gradient.head<2>() = -(1.0 - fraction) * force;
+  out.gradient.segment<2>(3) = -fraction * force;
+  return out;
+}
+
+// What all elements of a state share.
+struct SlidingElements {
+  const SlidingStructure& body;
+  const SlidingMesh& mesh;
+  const PlainMembers& members;
+  MeshState now;
+  Vec2 origin;
+};
+
+LocalEnergy energy_of(const SlidingElements& of, Index strand, Index position) {
+  const auto& [body, mesh, members, now, origin] = of;
+  const double S1 = mesh.coordinate(strand, position, now.s), S2 = mesh.coordinate(strand, position + 1, now.s);
+  const PartOfStrand part = part_of_strand(body, members, strand, S1, S2);
+  FreeDeformation free = part.member.free(now.lambda);
+  if (part.is_reversed()) free.curvature = -free.curvature;
+  const SlenderElement element{.stretch = part.stretch,
+                               .angle = part.member.axis_angle(),
+                               .section = part.member.section_between(part.first, part.last),
+                               .free = free};
+  const AxisPlace first = mesh.node(strand, position, now), second = mesh.node(strand, position + 1, now);
+  const Vec2 rest = body.undeformed({.strand = strand, .s = S1}, true).position;
+  const EndsMotion motion{.first = first.position - rest,
+                          .second = second.position - rest - part.stretch.chord,
+                          .turn1 = first.angle - part.stretch.angles.front(),
+                          .turn2 = second.angle - part.stretch.angles.back()};
+  LocalEnergy sum = slender_energy(element, motion);
+  const double L = part.member.length();
+  const AlongElement along{.member = part.member, .from = part.first * L, .to = part.last * L, .lambda = now.lambda};
+  if (!along.is_bare()) sum += line_energy(along, part.stretch, motion, rest - origin);
+  for (const SlidingMesh::PointLoad& load : mesh.point_loads_in(strand, position, now)) {
+    const Vec2 at_rest = body.undeformed({.strand = strand, .s = load.s}, true).position - rest;
+    const double inside = (load.s - S1) / (S2 - S1);
+    const ImperfectAxis& shape = part.member.shape();
+    const auto length_to = [&](double way) {
+      return shape.length(part.first * L, ((1.0 - way) * part.first + way * part.last) * L);
+    };
+    sum += load.on_wall ? load_on_chord(part.stretch, motion, inside, load.force, at_rest)
+                        : load_inside(element, motion, length_to(inside) / length_to(1.0), load.force, at_rest);
+  }
+  return sum;
 }
 
 }  // namespace
 
-std::vector<Potential> sliding_potentials(const Model& model, const State& state) {
-  std::vector<Potential> all;
+std::vector<Potential> sliding_potentials(const Model& model, const PlainMembers& members, const State& state) {
   const SlidingMesh& mesh = mesh_of(state);
-  const auto shared = std::make_shared<const SlidingElements>(
-      SlidingElements{.mesh = mesh,
-                      .s = mesh_state_of(state).s,
-                      .lambda = state.lambda,
-                      .x = MovedUnknowns(Vector(state.x.head(mesh.unknowns())))});
-  const SlidingStructure& body = *model.sliding_structure();
-  for (Index strand = 0; strand < body.strands(); ++strand)
+  const SlidingElements of{.body = *model.sliding_structure(),
+                           .mesh = mesh,
+                           .members = members,
+                           .now = mesh_state_of(state),
+                           .origin = origin_of_areas(model.structure())};
+  std::vector<Potential> all;
+  for (Index strand = 0; strand < of.body.strands(); ++strand)
     for (Index position = 0; position + 1 < mesh.nodes(strand); ++position) {
-      const double middle =
-          0.5 * (mesh.coordinate(strand, position, shared->s) + mesh.coordinate(strand, position + 1, shared->s));
-      const std::string member = body.label({.strand = strand, .s = middle}).first;
-      all.push_back(sliding_potential(shared, strand, position, narrowest_piece(model.deck(), member)));
+      Potential potential;
+      for (const Index end : {position, position + 1})
+        for (const Index unknown : mesh.node_unknowns(strand, end)) potential.unknowns.push_back(unknown);
+      static_cast<LocalEnergy&>(potential) = energy_of(of, strand, position);
+      all.push_back(std::move(potential));
     }
   return all;
 }

@@ -28,21 +28,6 @@ std::optional<Index> dof_of(const Structure& structure, const deck::Deck& deck, 
   return std::nullopt;
 }
 
-// Its integral from 0, by Simpson's rule between the points, which is exact for cubics.
-double table_energy(const deck::TableLaw& law, double stretch) {
-  const double least = std::min(0.0, stretch), greatest = std::max(0.0, stretch);
-  std::vector<double> places{least};
-  for (const double u : law.displacement)
-    if (u > least && u < greatest) places.push_back(u);
-  places.push_back(greatest);
-  double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-    const double a = places[i], b = places[i + 1];
-    sum += (b - a) / 6.0 * (table_force(law, a) + 4.0 * table_force(law, 0.5 * (a + b)) + table_force(law, b));
-  }
-  return stretch < 0.0 ? -sum : sum;
-}
-
 // The slope of straight pieces before point i of the table, beyond its ends 0.
 double slope_before(const deck::TableLaw& law, std::size_t i) {
   if (i == 0 || i == law.displacement.size()) return 0.0;
@@ -96,42 +81,49 @@ std::size_t kinks_before(const deck::Deck& deck, const deck::Spring& spring) {
   return kinks;
 }
 
+// What a potential of degrees of freedom is by: its unknowns, and the displacements, which are returned.
+Vector values_of(const Model& model, const State& state, const std::vector<Index>& dofs, Potential& potential) {
+  const Rates rates = rates_of_supports(model.structure());
+  const SlidingStructure* body = model.sliding_structure();
+  Vector u(static_cast<Index>(dofs.size()));
+  potential.rates = Vector::Zero(u.size());
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    const auto i = static_cast<Index>(k);
+    const auto unknown = body != nullptr ? body->unknown(mesh_of(state), dofs[k]) : model.structure().unknown(dofs[k]);
+    potential.unknowns.push_back(unknown.value_or(-1));
+    potential.rates[i] = rate_of(rates, dofs[k]);
+    u[i] = body != nullptr ? body->value(mesh_of(state), mesh_state_of(state), dofs[k])
+                           : model.structure().value(state, dofs[k]);
+  }
+  return u;
+}
+
+// Energy, force and stiffness of a spring at a stretch.
+struct SpringResponse {
+  double energy = 0.0, force = 0.0, stiffness = 0.0;
+};
+
 // The potential of a spring between two degrees of freedom, or of one to the ground, by its stretch: ½ k s² or that of
 // a law.
 Potential spring_potential(const Model& model, const State& state, double k, const deck::TableLaw* law,
-                           std::size_t first_kink, const std::vector<Index>& dofs, Dof which) {
-  const auto n = static_cast<Index>(dofs.size());
-  Potential potential{.at = Vector(n),
-                      .steps = Vector::Constant(n, step_of(which, model.structure().length_scale())),
-                      .rates = Vector::Zero(n)};
-  const Rates rates = rates_of_supports(model.structure());
-  for (Index i = 0; i < n; ++i) {
-    const Index dof = dofs[static_cast<std::size_t>(i)];
-    potential.rates[i] = rate_of(rates, dof);
-    const SlidingStructure* body = model.sliding_structure();
-    const auto unknown = body != nullptr ? body->unknown(mesh_of(state), dof) : model.structure().unknown(dof);
-    potential.unknowns.push_back(unknown.value_or(-1));
-    potential.at[i] =
-        body != nullptr ? body->value(mesh_of(state), mesh_state_of(state), dof) : model.structure().value(state, dof);
-  }
-  const Vector by = n == 1 ? Vector::Ones(1) : Vector(Vec2(-1.0, 1.0));  // of the stretch
-  const auto stretch = [by](const Vector& u) { return by.dot(u); };
-  if (law != nullptr && law->interpolation == SpringLaw::Interpolation::linear) {
-    const StraightPiece piece = straight_piece(*law, stretch(potential.at), state, first_kink);
-    potential.energy = [=](const Vector& u) { return piece.energy_at(stretch(u)); };
-    potential.gradient = [=](const Vector& u) { return Vector(piece.force_at(stretch(u)) * by); };
-    potential.curvature = [=](const Vector&) { return Matrix(piece.slope * by * by.transpose()); };
-    return potential;
-  }
-  potential.energy = [=](const Vector& u) {
-    return law != nullptr ? table_energy(*law, stretch(u)) : 0.5 * k * stretch(u) * stretch(u);
-  };
-  potential.gradient = [=](const Vector& u) {
-    return Vector((law != nullptr ? table_force(*law, stretch(u)) : k * stretch(u)) * by);
-  };
-  potential.curvature = [=](const Vector& u) {
-    return Matrix((law != nullptr ? table_slope(*law, stretch(u)) : k) * by * by.transpose());
-  };
+                           std::size_t first_kink, const std::vector<Index>& dofs) {
+  Potential potential;
+  const Vector u = values_of(model, state, dofs, potential);
+  const Vector by = u.size() == 1 ? Vector::Ones(1) : Vector(Vec2(-1.0, 1.0));  // of the stretch
+  const double stretch = by.dot(u);
+  const SpringResponse here = [&]() -> SpringResponse {
+    if (law == nullptr) return {.energy = 0.5 * k * stretch * stretch, .force = k * stretch, .stiffness = k};
+    if (law->interpolation == SpringLaw::Interpolation::linear) {
+      const StraightPiece piece = straight_piece(*law, stretch, state, first_kink);
+      return {.energy = piece.energy_at(stretch), .force = piece.force_at(stretch), .stiffness = piece.slope};
+    }
+    return {.energy = table_energy(*law, stretch),
+            .force = table_force(*law, stretch),
+            .stiffness = table_slope(*law, stretch)};
+  }();
+  potential.energy = here.energy;
+  potential.gradient = here.force * by;
+  potential.stiffness = here.stiffness * by * by.transpose();
   return potential;
 }
 
@@ -157,7 +149,7 @@ std::optional<Potential> spring_potential(const Model& model, const State& state
     if (const auto dof = dof_of(model.structure(), model.deck(), place, which)) dofs.push_back(*dof);
   const bool acts = law != nullptr ? law->direction == which : k > 0.0;
   if (!acts || places.empty() || dofs.size() != places.size()) return std::nullopt;
-  return spring_potential(model, state, k, law, kinks_before(model.deck(), spring), dofs, which);
+  return spring_potential(model, state, k, law, kinks_before(model.deck(), spring), dofs);
 }
 
 }  // namespace
@@ -172,38 +164,20 @@ void add_springs(const Model& model, const State& state, std::vector<Potential>&
 // with x given ½ p x z. With both given it is p times the area between the ways to them, of constant parts c and then
 // of λ d, and the rest place: ½ (x₀ u_z − z₀ u_x + λ c × d).
 void add_pressed_ends(const Model& model, const State& state, std::vector<Potential>& to) {
-  const SlidingStructure* body = model.sliding_structure();
   for (const NodalTerms::PressedEnd& end : model.structure().nodal_terms().pressed_ends()) {
-    Potential potential{.at = Vector(2),
-                        .steps = Vector::Constant(2, relative_step * model.structure().length_scale()),
-                        .rates = Vector::Zero(2)};
-    const Rates rates = rates_of_supports(model.structure());
-    for (const Index dof : {end.x, end.z}) {
-      const Index i = static_cast<Index>(potential.unknowns.size());
-      potential.rates[i] = rate_of(rates, dof);
-      const auto unknown = body != nullptr ? body->unknown(mesh_of(state), dof) : model.structure().unknown(dof);
-      potential.unknowns.push_back(unknown.value_or(-1));
-      potential.at[i] = body != nullptr ? body->value(mesh_of(state), mesh_state_of(state), dof)
-                                        : model.structure().value(state, dof);
-    }
+    Potential potential;
+    const Vec2 u = values_of(model, state, {end.x, end.z}, potential), rates_of_place = potential.rates;
     const bool is_given = potential.unknowns[0] < 0 && potential.unknowns[1] < 0;
     const double by_x = is_given || potential.unknowns[0] >= 0 ? -1.0 : 0.0;
     const double by_z = is_given || potential.unknowns[1] >= 0 ? 1.0 : 0.0;
-    const Vec2 rates_of_place = potential.rates, constant = Vec2(potential.at) - state.lambda * rates_of_place;
+    const Vec2 constant = u - state.lambda * rates_of_place;
     const double beside = is_given ? state.lambda * cross(constant, rates_of_place) : 0.0;
-    const double p = end.excess.at(state.lambda);
-    const Vec2 rest = end.rest;
-    potential.energy = [=](const Vector& u) {
-      return 0.5 * p * (by_x * (rest.y() + u[1]) * u[0] + by_z * (rest.x() + u[0]) * u[1] + beside);
-    };
-    potential.gradient = [=](const Vector& u) {
-      return Vector(0.5 * p * Vec2(by_x * (rest.y() + u[1]) + by_z * u[1], by_z * (rest.x() + u[0]) + by_x * u[0]));
-    };
-    potential.curvature = [=](const Vector&) {
-      Matrix K = Matrix::Zero(2, 2);
-      K(0, 1) = K(1, 0) = 0.5 * p * (by_x + by_z);
-      return K;
-    };
+    const double half = 0.5 * end.excess.at(state.lambda);
+    const Vec2 place = end.rest + u;
+    potential.energy = half * (by_x * place.y() * u.x() + by_z * place.x() * u.y() + beside);
+    potential.gradient = half * Vec2(by_x * place.y() + by_z * u.y(), by_z * place.x() + by_x * u.x());
+    potential.stiffness = Matrix::Zero(2, 2);
+    potential.stiffness(0, 1) = potential.stiffness(1, 0) = half * (by_x + by_z);
     to.push_back(std::move(potential));
   }
 }
@@ -239,6 +213,21 @@ std::pair<double, double> table_force_and_slope(const deck::TableLaw& law, doubl
 
 double table_force(const deck::TableLaw& law, double stretch) { return table_force_and_slope(law, stretch).first; }
 
+// Its integral from 0, by Simpson's rule between the points, which is exact for cubics.
+double table_energy(const deck::TableLaw& law, double stretch) {
+  const double least = std::min(0.0, stretch), greatest = std::max(0.0, stretch);
+  std::vector<double> places{least};
+  for (const double u : law.displacement)
+    if (u > least && u < greatest) places.push_back(u);
+  places.push_back(greatest);
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const double a = places[i], b = places[i + 1];
+    sum += (b - a) / 6.0 * (table_force(law, a) + 4.0 * table_force(law, 0.5 * (a + b)) + table_force(law, b));
+  }
+  return stretch < 0.0 ? -sum : sum;
+}
+
 double greatest_energy(const deck::TableLaw& law) {
   double most = 0.0;
   for (const double u : law.displacement) most = std::max(most, std::abs(table_energy(law, u)));
@@ -249,8 +238,7 @@ double table_slope(const deck::TableLaw& law, double stretch) { return table_for
 std::optional<double> spring_force(const Model& model, const State& state, const deck::Spring& spring, Dof which) {
   const auto potential = spring_potential(model, state, spring, which);
   if (!potential) return std::nullopt;
-  const Vector gradient = potential->gradient(potential->at);
-  return gradient[gradient.size() - 1];
+  return potential->gradient[potential->gradient.size() - 1];
 }
 
 }  // namespace arcwall::verify

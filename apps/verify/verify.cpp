@@ -133,6 +133,10 @@ std::vector<std::string> left_out(const Model& model, Index uncounted, bool move
     sentences.emplace_back(
         "stability counts near zone ends, and where elements turn by more than 0.3 rad: checked only as an interval, "
         "between contact rotations fixed and free");
+  if (model.compliant() != nullptr)
+    sentences.emplace_back(
+        "energy and stiffness of compliant walls: those of the program, whose edges of contact lie inside elements; "
+        "their forces are compared with laws and distances by a rule of 64 parts");
   if (deck::has_friction(model.deck()))
     sentences.emplace_back(
         "stability counts and the choice among several solutions at contacts with friction: no energy determines them");
@@ -171,8 +175,10 @@ class Verifier {
         scales_(scales_of(model)),
         path_rows_(csv_rows(files.path_csv)),
         contact_rows_(csv_rows(files.contacts_csv)) {
-    for (Index stage = 0; stage <= static_cast<Index>(model.ended_stages().size()); ++stage)
+    for (Index stage = 0; stage <= static_cast<Index>(model.ended_stages().size()); ++stage) {
       walls_.push_back(walls_of(model.at_stage(stage).deck()));
+      members_.emplace_back(model.at_stage(stage));
+    }
   }
 
   Verdict run(const StoredFiles& files) {
@@ -214,12 +220,12 @@ class Verifier {
     const RecordPoint& point = record_.points[number];
     Findings& findings = verdict_.findings;
     findings.at(states_file_, point.branch, point.step);
-    const Index stage = record_.stage_number(point.branch);
-    const Model& model = model_.at_stage(stage);
+    const auto stage = static_cast<std::size_t>(record_.stage_number(point.branch));
+    const Model& model = model_.at_stage(static_cast<Index>(stage));
     const bool well_formed = is_well_formed(model, point.state);
     findings.require("states are finite and complete", well_formed, "its unknowns");
     if (!well_formed) return false;
-    const PointAtHand at = at_hand(model, point, walls_[static_cast<std::size_t>(stage)], scales_);
+    const PointAtHand at = at_hand(model, members_[stage], point, walls_[stage], scales_);
     PathExpectation expected{.contacts = listed_contacts(at.touches), .moves_supports = record_.moves_supports};
     if (model.compliant() != nullptr) expected.contacts = model.closed_contacts(point.state);
     if (record_.has_friction) expected.slipping = slipping_contacts(at.touches);
@@ -240,7 +246,7 @@ class Verifier {
       if (record_.moves_supports && point.unstable_load_control)
         expected.unstable_load_control = unstable_load_control_range(at, zero);
       if (number > 0 && record_.points[number - 1].branch == point.branch)
-        check_passages(model, walls_[static_cast<std::size_t>(stage)], record_.points[number - 1], point, findings);
+        check_passages(model, walls_[stage], record_.points[number - 1], point, findings);
       check_rates(model.watched(), record_.points, number, findings);
       if (number > 0 && record_.points[number - 1].branch == point.branch)
         check_slips(model, record_.points[number - 1], point, findings);
@@ -259,6 +265,7 @@ class Verifier {
   std::string states_file_;
   Scales scales_;
   WallsOfStages walls_;
+  std::vector<PlainMembers> members_;  // of each stage
   std::vector<std::vector<std::string>> path_rows_, contact_rows_;
   std::size_t next_contact_ = 0;
   Index uncounted_ = 0;

@@ -28,9 +28,10 @@ Findings findings_of(const TracedDeck& traced, double times) {
   Findings findings;
   const Scales scales{};
   const std::vector<PlainWall> walls = walls_of(traced.model().deck());
+  const PlainMembers members(traced.model());
   for (RecordPoint point : traced.record().points) {
     point.lambda *= times;
-    check_point_loads(at_hand(traced.model(), point, walls, scales), findings);
+    check_point_loads(at_hand(traced.model(), members, point, walls, scales), findings);
   }
   return findings;
 }
