@@ -7,8 +7,8 @@
 #include <ctime>
 #include <string>
 
+#include "answers/sessions.hpp"
 #include "model/deck/toml_source.hpp"
-#include "model/session.hpp"
 
 int main(int count, char** arguments) {
   if (count != 3) {
@@ -18,7 +18,8 @@ int main(int count, char** arguments) {
   const std::string text = arcwall::deck::read_text_file(arguments[1]);
   for (int left = std::atoi(arguments[2]); left > 0; --left) {
     const std::clock_t begin = std::clock();
-    arcwall::Session run({.deck = arguments[1], .deck_text = text, .assignments = {"path.jumps=false"}});
+    arcwall::Session run =
+        arcwall::make_session({.deck = arguments[1], .deck_text = text, .assignments = {"path.jumps=false"}});
     while (run.next() != nullptr) {
     }
     std::printf("%.6f\n", double(std::clock() - begin) / CLOCKS_PER_SEC);

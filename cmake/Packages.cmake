@@ -43,8 +43,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libsuitesp
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake (>= 3.25), g++ (>= 4:12)")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
   "Headers, static libraries and the CMake configuration of arcwall::core,
-arcwall::continuation, arcwall::elements, arcwall::contact and arcwall::model,
-which follow equilibrium paths in programs in C++20.")
+arcwall::continuation, arcwall::elements, arcwall::contact, arcwall::model and
+arcwall::answers, which follow equilibrium paths in programs in C++20.")
 
 # The module is for one version of the interpreter, whose number is part of its file's name.
 if(TARGET arcwall_python)

@@ -621,16 +621,16 @@ Compared in tests only:
 | maximum moment: cantilever at large rotation; uniform load between nodes; growing end moment | closed forms | 1e-8, 1e-7, 1e-6 | `tests/apps/monitors_test.cpp` |
 | stress in outer fibres: cantilever at large rotation, five sections; eccentric column | hand formulas, secant formula | 1e-8, 3e-4 (small slopes) | `tests/apps/stress_monitors_test.cpp` |
 | values that λ, displacements and forces pass; last contact | closed forms | 1e-12, 1e-5 | `tests/apps/value_crossings_test.cpp` |
-| derivatives of monitors along events | closed forms; differences of whole runs | 1e-7; 1e-6 (stress by a length 2e-5) | `tests/apps/monitor_sensitivity_test.cpp` |
+| derivatives of monitors along events | closed forms; differences of whole runs | 1e-7; 1e-6 (stress by a length 2e-5) | `tests/answers/monitor_sensitivity_test.cpp` |
 | gaps; spring forces; pressure of soil | clearance less deflection, distance from a circle; statics, k u; q and k times the settlement | 1e-9, 1e-12 | `tests/apps/monitors_test.cpp` |
-| search: truss | closed form | | `tests/apps/search_test.cpp` |
-| search: column on one wall of a channel, λ = 6.5, 16 equilibria up to mirror images | shooting; 13 to 15 of the other 15 with 50 guesses, all of two and three contacts, none false | 1e-6 | `tests/apps/search_test.cpp` |
+| search: truss | closed form | | `tests/answers/search_test.cpp` |
+| search: column on one wall of a channel, λ = 6.5, 16 equilibria up to mirror images | shooting; 13 to 15 of the other 15 with 50 guesses, all of two and three contacts, none false | 1e-6 | `tests/answers/search_test.cpp` |
 | jumps | closed forms and shooting | | `jump_test.cpp` in `tests/apps` |
 | jumps, ten problems | slow motion among stiff springs | | `jump_motion_test.cpp` in `tests/apps` |
-| knock-down map over two imperfections | runs, event curves | 1e-13 | `tests/apps/curve_session_test.cpp` |
-| event curves: limit points and cusp of a truss on a spring, pitchfork of a column, truss with a side load H (0.60678 H^(2/3) lower) | closed forms | 1e-9 | `tests/apps/curve_test.cpp` |
-| event curves: cusp and crossing of a pinned arch | shooting | | `tests/apps/curve_test.cpp` |
-| event curves of every other kind | new runs | 1e-9 | `tests/apps/curve_test.cpp` |
+| knock-down map over two imperfections | runs, event curves | 1e-13 | `tests/answers/curve_session_test.cpp` |
+| event curves: limit points and cusp of a truss on a spring, pitchfork of a column, truss with a side load H (0.60678 H^(2/3) lower) | closed forms | 1e-9 | `tests/answers/curve_test.cpp` |
+| event curves: cusp and crossing of a pinned arch | shooting | | `tests/answers/curve_test.cpp` |
+| event curves of every other kind | new runs | 1e-9 | `tests/answers/curve_test.cpp` |
 """
 
 # Rows of the summary: titles of cases by their beginnings.

@@ -10,6 +10,8 @@
 #include "core/text.hpp"
 #include "model/build_contact.hpp"
 #include "model/deck/key_list.hpp"
+#include "model/deck/numbers.hpp"
+#include "model/deck/value.hpp"
 
 namespace arcwall {
 
@@ -37,6 +39,37 @@ void report_nothing_moves(const deck::Deck& deck, std::size_t stage, bool all_is
                         "leave a direction free, or divide the members more finely");
   problems.add(position, key, "what λ multiplies acts on directions that are held: nothing moves",
                "load a free direction");
+}
+
+void check_sensitivity(const deck::Deck& deck, DeckProblems& problems) {
+  if (deck.path.sensitivity.empty()) return;
+  if (deck.path.method == deck::PathMethod::incremental)
+    problems.add(deck.path.position, "path.sensitivity",
+                 "method \"incremental\" finds no events whose derivatives mean anything", "use method \"spherical\"");
+  if (deck.path.events != EventSearch::locate)
+    problems.add(deck.path.position, "path.sensitivity", "events that are not located have no derivatives",
+                 "write events = \"locate\"");
+  for (const std::string& key : deck.path.sensitivity) {
+    const auto found = deck::number_of(deck, key);
+    if (const auto* const none = std::get_if<deck::NoNumber>(&found))
+      problems.add(deck.path.position, "path.sensitivity", deck::in_quotes(key, 100) + " " + none->message, none->cure);
+  }
+}
+
+void check_curve(const deck::Deck& deck, DeckProblems& problems) {
+  if (!deck.curve) return;
+  const deck::EventToFollow& curve = *deck.curve;
+  const auto add = [&](const char* key, std::string message, std::string cure) {
+    problems.add(curve.position, key, std::move(message), std::move(cure));
+  };
+  std::vector<std::string> keys = curve.worst;
+  if (!curve.parameter.empty()) keys.push_back(curve.parameter);
+  for (const std::string& key : keys) {
+    const char* const at = curve.parameter.empty() ? "curve.worst" : "curve.parameter";
+    const auto found = deck::number_of(deck, key);
+    if (const auto* const none = std::get_if<deck::NoNumber>(&found))
+      add(at, deck::in_quotes(key, 100) + " " + none->message, none->cure);
+  }
 }
 
 std::string start_outside_bounds(const deck::Path& path) {

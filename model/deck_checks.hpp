@@ -50,6 +50,12 @@ void check_between_nodes(const deck::Deck& deck, const SlidingContact& contact, 
 /// there would have no derivatives.
 void check_watched(const deck::Deck& deck, DeckProblems& problems);
 
+/// Adds what is wrong with the deck's `path.sensitivity`.
+void check_sensitivity(const deck::Deck& deck, DeckProblems& problems);
+
+/// Adds what of `curve.parameter` and `curve.worst` names no number.
+void check_curve(const deck::Deck& deck, DeckProblems& problems);
+
 /// How a path begins to leave the bounds of λ where it starts; empty if it does not.
 std::string start_outside_bounds(const deck::Path& path);
 

@@ -17,8 +17,6 @@
 #include "model/deck_checks.hpp"
 #include "model/deck_mesh.hpp"
 #include "model/deck_scales.hpp"
-#include "model/event_curve.hpp"
-#include "model/sensitivities.hpp"
 #include "model/support_reaction.hpp"
 
 namespace arcwall {

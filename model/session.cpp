@@ -5,9 +5,8 @@
 
 #include "core/error.hpp"
 #include "model/checkpoint/checkpoint_file.hpp"
-#include "model/deck/given_points.hpp"
 #include "model/deck/reader.hpp"
-#include "model/jumps.hpp"
+#include "model/path_answers.hpp"
 #include "model/record_parts.hpp"
 #include "model/recorder.hpp"
 #include "model/regular_file.hpp"
@@ -97,8 +96,9 @@ ArchiveModel model_of(const Model& model) {
 
 }  // namespace
 
-Session::Session(RunDescription description)
+Session::Session(RunDescription description, const Answers& answers)
     : description_(std::move(description)),
+      answers_(&answers),
       model_(std::make_unique<Model>(
           deck::read_deck_text(description_.deck_text, description_.deck, description_.assignments))),
       record_(std::make_unique<Record>(empty_record(*model_))) {}
@@ -107,16 +107,12 @@ Session::Session(Session&& other) noexcept = default;
 Session& Session::operator=(Session&& other) noexcept = default;
 Session::~Session() = default;
 
-Session Session::open(const std::string& file, std::vector<std::string> assignments) {
-  return Session({.deck = file, .deck_text = deck::read_deck_file(file), .assignments = std::move(assignments)});
-}
-
 bool Session::begin() {
   if (tracing_) return true;
   std::optional<State> start = model_->start(problem_);
   if (!start) return false;
   start_ = std::move(*start);
-  tracing_ = make_tracing(*model_, *record_, start_, description_.ledger);
+  tracing_ = make_tracing(*model_, *record_, start_, description_.ledger, *answers_);
   return true;
 }
 
@@ -124,7 +120,7 @@ const RecordPoint* Session::next() {
   if (!problem_.empty() || !begin()) return nullptr;
   const bool had_ended = tracing_->has_ended();
   if (tracing_->advance()) return &record_->points.back();
-  if (!had_ended && !stopped_) add_jumps(*model_, *record_);
+  if (!had_ended && !stopped_) answers_->complete(*model_, *record_);
   return nullptr;
 }
 
@@ -144,8 +140,8 @@ std::string Session::checkpoint(const std::optional<BranchEnd>& stopped) {
   return to_checkpoint(SessionContent::of(*this, stopped));
 }
 
-Session Session::from(std::string_view checkpoint, const std::string& file, Resume how) {
-  return SessionContent::read(from_checkpoint(checkpoint, file), file, how);
+Session Session::from(std::string_view checkpoint, const std::string& file, Resume how, const Answers& answers) {
+  return SessionContent::read(from_checkpoint(checkpoint, file), file, how, answers);
 }
 
 Json SessionContent::of(Session& session, const std::optional<BranchEnd>& stopped) {
@@ -172,13 +168,14 @@ RunDescription described_in(const Json& content, const std::string& file) try {
   throw OutputError(file + ": is no checkpoint of this deck: " + problem.what() + "; run the deck again");
 }
 
-Session SessionContent::read(const Json& content, const std::string& file, Session::Resume how) {
+Session SessionContent::read(const Json& content, const std::string& file, Session::Resume how,
+                             const Answers& answers) {
   try {
     // What the run is of comes first: the rest can be read when its model is there.
     RunDescription description = described_in(content, file);
     if (description.traced == Traced::curve)
       throw OutputError(file + ": is of a curve of events, not of a run; trace-path resume and verify take it");
-    Session session(std::move(description));
+    Session session(std::move(description), answers);
 
     ArchiveReader archive(content, model_of(*session.model_));
     std::string program;
@@ -188,7 +185,8 @@ Session SessionContent::read(const Json& content, const std::string& file, Sessi
     for (const StageEnd& end : ended_stages) archive.require(is_finite(end) && session.model_->begin_stage(end));
     archive.set_stages(model_of(*session.model_));
     archive.require(session.start_.x.size() > 0);
-    session.tracing_ = make_tracing(*session.model_, *session.record_, session.start_, session.description_.ledger);
+    session.tracing_ =
+        make_tracing(*session.model_, *session.record_, session.start_, session.description_.ledger, answers);
     keep_traced(archive, *session.record_);
     archive.require(is_whole(*session.record_, ended_stages.size()));
     session.tracing_->serialize(archive);
@@ -203,8 +201,6 @@ Session SessionContent::read(const Json& content, const std::string& file, Sessi
   }
 }
 
-namespace {
-
 std::string bytes_of_checkpoint(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "checkpoint";
   std::error_code ignored;
@@ -212,19 +208,6 @@ std::string bytes_of_checkpoint(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(file, ignored))
     throw OutputError(file.string() + ": there is none; `trace-path run DECK --out " + folder.string() + "` writes it");
   return bytes_of_regular_file(file);
-}
-
-}  // namespace
-
-Session stored_session(const std::filesystem::path& folder, Session::Resume how) {
-  return Session::from(bytes_of_checkpoint(folder), (folder / "checkpoint").string(), how);
-}
-
-StoredTracing stored_tracing(const std::filesystem::path& folder, Session::Resume how) {
-  const std::string file = (folder / "checkpoint").string();
-  const Json content = from_checkpoint(bytes_of_checkpoint(folder), file);
-  if (described_in(content, file).traced == Traced::curve) return CurveContent::read(content, file, how);
-  return SessionContent::read(content, file, how);
 }
 
 }  // namespace arcwall

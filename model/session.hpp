@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,18 +13,16 @@
 
 namespace arcwall {
 
+class Answers;
 class Tracing;
 
 /// Owns a deck, its model and the run that traces its paths point by point. Sessions share no data: several may run at
 /// once, each in its own thread. A resumed run has bit-identical results.
 class Session {
  public:
-  /// Reads a deck file and builds its model. `assignments`: texts `key=value` that replace values of the deck. Throws
-  /// InputError with all errors of the deck.
-  static Session open(const std::string& file, std::vector<std::string> assignments = {});
-
-  /// Builds the model of a deck in memory. Throws InputError likewise.
-  explicit Session(RunDescription description);
+  /// Builds the model of a deck. `answers` answers what the deck asks of its run besides the paths and must outlive the
+  /// session: answers/sessions.hpp makes sessions with all answers. Throws InputError with all errors of the deck.
+  Session(RunDescription description, const Answers& answers);
 
   Session(Session&& other) noexcept;
   Session& operator=(Session&& other) noexcept;
@@ -73,12 +70,13 @@ class Session {
 
   /// Returns the session of a checkpoint. Throws OutputError, which names `file`, if the bytes are not readable by this
   /// version.
-  static Session from(std::string_view checkpoint, const std::string& file, Resume how);
+  static Session from(std::string_view checkpoint, const std::string& file, Resume how, const Answers& answers);
 
  private:
   friend class SessionContent;
 
   RunDescription description_;
+  const Answers* answers_;
   std::unique_ptr<Model>
       model_;  // it and the record keep their places when the session moves: the tracing refers to them
   std::unique_ptr<Record> record_;
@@ -87,8 +85,5 @@ class Session {
   std::unique_ptr<Tracing> tracing_;
   bool stopped_ = false;  // from outside: nothing that takes long is done at the end
 };
-
-/// Returns the session of the checkpoint in a results folder. Throws OutputError if it is missing or unreadable.
-Session stored_session(const std::filesystem::path& folder, Session::Resume how);
 
 }  // namespace arcwall

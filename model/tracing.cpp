@@ -8,11 +8,8 @@
 #include "continuation/stops.hpp"
 #include "core/text.hpp"
 #include "model/build_path.hpp"
-#include "model/jumps.hpp"
 #include "model/record_parts.hpp"
 #include "model/recorder.hpp"
-#include "model/search.hpp"
-#include "model/sensitivities.hpp"
 #include "model/step_ledger.hpp"
 
 namespace arcwall {
@@ -22,16 +19,15 @@ namespace {
 // Every branch, one after the other.
 class PathTracing final : public Tracing {
  public:
-  // `ended_stages`: how the stages before the model's have ended. `reverses`: λ turns at the start.
+  // `reverses`: λ turns at the start.
   PathTracing(const Model& model, Record& record, const State& start, StepLedger ledger,
-              std::vector<StageEnd> ended_stages = {}, bool reverses = false)
+              std::unique_ptr<PathAnswers> answers, bool reverses = false)
       : model_(model),
         record_(record),
         reverses_(reverses),
-        sensitivities_(model, std::move(ended_stages)),
+        answers_(std::move(answers)),
         first_(static_cast<int>(record.branches.size())),
-        explorer_(model.system(), start, options(ledger), model.watched(), explore()),
-        search_(model, record) {}
+        explorer_(model.system(), start, options(ledger), model.watched(), explore()) {}
 
   bool advance() override {
     std::optional<Explorer::Step> step = explorer_.next();
@@ -52,9 +48,8 @@ class PathTracing final : public Tracing {
     recorder_->add(step->arc, explorer_.departure());
     const std::size_t first_event = record_.events.size() - step->arc.events.size();
     for (std::size_t i = 0; i < step->arc.events.size(); ++i)
-      record_.events[first_event + i].sensitivity = sensitivities_.of(step->arc, step->arc.events[i]);
-    if (const auto end = end_of_found_branch(model_, record_)) explorer_.end_branch(*end);
-    if (const auto end = end_where_it_walks_back(model_, record_)) explorer_.end_branch(*end);
+      record_.events[first_event + i].sensitivity = answers_->sensitivities(step->arc, step->arc.events[i]);
+    if (const auto end = answers_->end_of_branch()) explorer_.end_branch(*end);
     if (auto why = model_.adrift(step->arc.to.state))
       explorer_.stop({.reason = EndReason::rigid_body_motion, .detail = std::move(*why)});
     return true;
@@ -79,7 +74,7 @@ class PathTracing final : public Tracing {
  private:
   template <typename Archive>
   void visit(Archive& archive) {
-    archive(first_, branch_, finished_, explorer_, search_);
+    archive(first_, branch_, finished_, explorer_, *answers_);
   }
 
   TraceOptions options(StepLedger ledger) {
@@ -95,7 +90,7 @@ class PathTracing final : public Tracing {
   ExploreOptions explore() {
     ExploreOptions options = model_.explore();
     options.jump = [this](const Event& lost, const PathPoint& behind) -> JumpEnd {
-      Fall fall = fall_beyond(model_, lost, behind);
+      Fall fall = answers_->fall(lost, behind);
       for (RecordEvent& event : record_.events)
         if (event.branch == record_.branches.back().id && event.kind == lost.kind && event.arc == lost.arc)
           event.jump = fall.jump;
@@ -137,7 +132,7 @@ class PathTracing final : public Tracing {
       explorer_.begin_at(std::move(given.state), given.sense);
       return true;
     }
-    std::optional<Search::Start> start = search_.next();
+    std::optional<BranchStart> start = answers_->next_start();
     if (start) explorer_.begin_at(std::move(start->state), start->sense);
     return start.has_value();
   }
@@ -164,10 +159,9 @@ class PathTracing final : public Tracing {
   const Model& model_;
   Record& record_;
   bool reverses_;
-  Sensitivities sensitivities_;
+  std::unique_ptr<PathAnswers> answers_;
   int first_;  // of the branches that the explorer counts from 0
   Explorer explorer_;
-  Search search_;
   std::vector<BranchStart> given_;  // which no checkpoint keeps
   std::size_t next_given_ = 0;
   std::optional<Recorder> recorder_;
@@ -178,8 +172,8 @@ class PathTracing final : public Tracing {
 // The stages of a deck, each from where the one before has stopped.
 class StageTracing final : public Tracing {
  public:
-  StageTracing(Model& model, Record& record, const State& start, StepLedger ledger)
-      : model_(model), record_(record), ledger_(ledger) {
+  StageTracing(Model& model, Record& record, const State& start, StepLedger ledger, const Answers& answers)
+      : model_(model), record_(record), ledger_(ledger), answers_(answers) {
     begin(0, start);
   }
 
@@ -211,9 +205,10 @@ class StageTracing final : public Tracing {
  private:
   void begin(Index stage, const State& start) {
     stage_ = stage;
+    const Model& model = model_.at_stage(stage);
     const std::vector<StageEnd>& ended = model_.ended_stages();
-    tracing_ = std::make_unique<PathTracing>(model_.at_stage(stage), record_, start, ledger_,
-                                             std::vector(ended.begin(), ended.begin() + stage), drives_back(stage));
+    auto answers = answers_.of_paths(model, record_, std::vector(ended.begin(), ended.begin() + stage));
+    tracing_ = std::make_unique<PathTracing>(model, record_, start, ledger_, std::move(answers), drives_back(stage));
   }
 
   // Whether a stage drives something back that an earlier one has driven. Without friction that changes nothing.
@@ -246,6 +241,7 @@ class StageTracing final : public Tracing {
   Model& model_;
   Record& record_;
   StepLedger ledger_;
+  const Answers& answers_;
   Index stage_ = 0;
   std::unique_ptr<PathTracing> tracing_;
 };
@@ -342,10 +338,11 @@ class IncrementTracing final : public Tracing {
 
 }  // namespace
 
-std::unique_ptr<Tracing> make_tracing(Model& model, Record& record, const State& start, StepLedger ledger) {
+std::unique_ptr<Tracing> make_tracing(Model& model, Record& record, const State& start, StepLedger ledger,
+                                      const Answers& answers) {
   if (model.in_increments()) return std::make_unique<IncrementTracing>(model, record, start, ledger);
-  if (!record.stages.empty()) return std::make_unique<StageTracing>(model, record, start, ledger);
-  return std::make_unique<PathTracing>(model, record, start, ledger);
+  if (!record.stages.empty()) return std::make_unique<StageTracing>(model, record, start, ledger, answers);
+  return std::make_unique<PathTracing>(model, record, start, ledger, answers.of_paths(model, record, {}));
 }
 
 }  // namespace arcwall

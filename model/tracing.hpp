@@ -6,6 +6,7 @@
 #include "continuation/trace_options.hpp"
 #include "model/checkpoint/archive.hpp"
 #include "model/model.hpp"
+#include "model/path_answers.hpp"
 #include "model/record.hpp"
 #include "model/run_description.hpp"
 
@@ -34,7 +35,8 @@ class Tracing {
   virtual void serialize(ArchiveReader& archive) = 0;
 };
 
-/// Along the equations' path, or in the deck's load increments. `model` and `record` must outlive it.
-std::unique_ptr<Tracing> make_tracing(Model& model, Record& record, const State& start, StepLedger ledger);
+/// Along the equations' path, or in the deck's load increments. `model`, `record` and `answers` must outlive it.
+std::unique_ptr<Tracing> make_tracing(Model& model, Record& record, const State& start, StepLedger ledger,
+                                      const Answers& answers);
 
 }  // namespace arcwall

@@ -17,7 +17,7 @@ check() {
   allowed=$(IFS='|' && echo "$*")
   while IFS= read -r line; do
     fail "$line   (of this project, $folder may include $* only)"
-  done < <(grep -rnE --include='*.[ch]pp' '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<](\.\./)*(arcwall/)?(core|continuation|elements|contact|model|apps|tests|benchmarks)/' "$folder" |
+  done < <(grep -rnE --include='*.[ch]pp' '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<](\.\./)*(arcwall/)?(core|continuation|elements|contact|model|answers|apps|tests|benchmarks)/' "$folder" |
     grep -vE "#[[:space:]]*include[[:space:]]*\"($allowed)/" || true)
   # A name without a folder, or a way up, would hide where the header is.
   while IFS= read -r line; do
@@ -36,16 +36,17 @@ check elements core elements
 check contact core contact
 
 check model core continuation elements contact model
+check answers core continuation elements contact model answers
 
 # Which factorization is taken, and how it works, is core/algebra's own matter: others see its interfaces alone.
 while IFS= read -r line; do
   fail "$line   (only core, tests and benchmarks may include core/algebra/solvers and core/algebra/block_tridiagonal)"
-done < <(grep -rnE --include='*.[ch]pp' '^#include "core/algebra/(solvers|block_tridiagonal)/' continuation elements contact model apps || true)
+done < <(grep -rnE --include='*.[ch]pp' '^#include "core/algebra/(solvers|block_tridiagonal)/' continuation elements contact model answers apps || true)
 
 # Contact that slides is made in a room of its own, of which others see the layout alone.
 while IFS= read -r line; do
   fail "$line   (only contact may include contact/sliding; others may include its layout.hpp)"
-done < <(grep -rnE --include='*.[ch]pp' '^#include "contact/sliding/' continuation elements model apps |
+done < <(grep -rnE --include='*.[ch]pp' '^#include "contact/sliding/' continuation elements model answers apps |
   grep -v '"contact/sliding/layout.hpp"' || true)
 
 # What an element is checked by is not the element: verify has energies of its own.
@@ -59,12 +60,12 @@ installed() {
 }
 
 # What an installed header includes is installed, too; and users need neither TOML nor JSON headers.
-for library in core continuation elements contact model; do
+for library in core continuation elements contact model answers; do
   for header in $(installed "$library"); do
     while IFS= read -r included; do
       installed "${included%%/*}" | grep -qxF "$included" ||
         fail "$header includes $included, which ${included%%/*}/CMakeLists.txt does not list among its HEADERS"
-    done < <(sed -nE 's/^#include "((core|continuation|elements|contact|model)\/[^"]*)".*/\1/p' "$header")
+    done < <(sed -nE 's/^#include "((core|continuation|elements|contact|model|answers)\/[^"]*)".*/\1/p' "$header")
     ! grep -nE '^#include <(toml\+\+|nlohmann|fmt|zlib)' "$header" || fail "$header shows what the library is made with"
   done
 done
@@ -81,10 +82,11 @@ check_no_cycles() {
 }
 
 check_no_cycles model
+check_no_cycles answers
 check_no_cycles apps
 
 if [[ $failures -gt 0 ]]; then
   echo "$failures lines break the star" >&2
   exit 1
 fi
-echo "continuation, elements and contact use core alone, the model uses these; no library prints or exits; no circles"
+echo "continuation, elements and contact use core alone, the model uses these, answers the model; no library prints or exits; no circles"

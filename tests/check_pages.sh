@@ -9,7 +9,7 @@ fail() {
   failures=$((failures + 1))
 }
 
-folders='apps|benchmarks|cmake|contact|continuation|core|docs|elements|examples|model|python|tests'
+folders='answers|apps|benchmarks|cmake|contact|continuation|core|docs|elements|examples|model|python|tests'
 # A page without its blocks of code.
 text_of() { awk '/^ *```/ { code = !code; next } !code' "$1"; }
 

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <optional>
 
+#include "answers/sessions.hpp"
 #include "apps/cli/browser_print.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/output/files.hpp"
@@ -10,7 +11,6 @@
 #include "apps/output/report_html.hpp"
 #include "core/error.hpp"
 #include "model/regular_file.hpp"
-#include "model/session.hpp"
 
 namespace arcwall {
 

@@ -1,10 +1,10 @@
 #include <iostream>
 
+#include "answers/curve_session.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/trace_and_write.hpp"
 #include "apps/cli/trace_curve.hpp"
 #include "core/error.hpp"
-#include "model/curve_session.hpp"
 
 namespace arcwall {
 

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "answers/sessions.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/summary.hpp"
 #include "apps/cli/trace_and_write.hpp"
@@ -65,7 +66,7 @@ void say_what_is_replaced(const RunRequest& request) {
 ExitStatus run(const Options& options) {
   const Stopwatch since_begin;
   const RunRequest request = request_from(options);
-  Session run(request.run);
+  Session run = make_session(request.run);
   require_other_than_input(request.folder, request.run.deck);
   for (const std::string& warning : run.model().warnings()) std::cerr << "warning: " << warning << "\n";
   if (options.has("dry-run")) return dry_run(request, run);

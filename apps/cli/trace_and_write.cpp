@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "answers/sessions.hpp"
 #include "apps/cli/checkpoint_keeper.hpp"
 #include "apps/cli/interrupt.hpp"
 #include "apps/cli/json_lines.hpp"
@@ -164,7 +165,7 @@ void write_run(Session& run, const OutputFolder& folder, const CallOptions& opti
     return write_files(folder, run, options, seconds, status);
   }
   const Session as_ended =
-      Session::from(checkpoint, (folder.path() / "checkpoint").string(), Session::Resume::as_ended);
+      resume_session(checkpoint, (folder.path() / "checkpoint").string(), Session::Resume::as_ended);
   write_files(folder, as_ended, options, seconds, exit_status(stopped.reason));
 }
 

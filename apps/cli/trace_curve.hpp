@@ -1,9 +1,9 @@
 #pragma once
 
+#include "answers/curve_session.hpp"
 #include "apps/cli/call_options.hpp"
 #include "apps/output/exit_status.hpp"
 #include "apps/output/files.hpp"
-#include "model/curve_session.hpp"
 
 namespace arcwall {
 

@@ -1,13 +1,13 @@
 #include <filesystem>
 #include <iostream>
 
+#include "answers/curve_session.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/verify/again.hpp"
 #include "apps/verify/copies.hpp"
 #include "apps/verify/curve_checks.hpp"
 #include "apps/verify/verify.hpp"
 #include "core/error.hpp"
-#include "model/curve_session.hpp"
 #include "model/regular_file.hpp"
 
 namespace arcwall {

@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <map>
 
+#include "answers/sessions.hpp"
 #include "core/error.hpp"
 #include "model/deck/reader.hpp"
 #include "model/deck/writer.hpp"
 #include "model/event_names.hpp"
 #include "model/model.hpp"
-#include "model/session.hpp"
 
 namespace arcwall {
 
@@ -115,7 +115,7 @@ std::vector<int> finer(const deck::Deck& deck, std::vector<int> elements, int fa
 
 // False if it was stopped.
 bool trace(const deck::Deck& deck, const MeshStudy& study, MeshRun& run) {
-  Session session({.deck = deck.source.file, .deck_text = deck::to_toml(deck)});
+  Session session = make_session({.deck = deck.source.file, .deck_text = deck::to_toml(deck)});
   if (!session.begin()) run.problem = session.problem();
   while (run.problem.empty() && session.next() != nullptr)
     if (study.stopped && study.stopped()) return false;

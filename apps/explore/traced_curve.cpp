@@ -6,10 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "answers/curve_session.hpp"
 #include "apps/explore/lines.hpp"
 #include "apps/output/markup.hpp"
 #include "core/text.hpp"
-#include "model/curve_session.hpp"
 #include "model/event_names.hpp"
 
 namespace arcwall::explore {

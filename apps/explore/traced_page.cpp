@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "answers/sessions.hpp"
 #include "apps/explore/deck_numbers.hpp"
 #include "apps/explore/lines.hpp"
 #include "apps/output/markup.hpp"
@@ -12,7 +13,6 @@
 #include "apps/output/run_warnings.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "model/session.hpp"
 
 namespace arcwall::explore {
 
@@ -63,7 +63,7 @@ void trace(Session& run, double most_seconds, const LineSink& give) {
 void trace_and_give(const EditedDeck& deck, double most_seconds, const LineSink& give) {
   Json answer{{"numbers", numbers_json(deck)}};
   try {
-    Session run({.deck = deck.file, .deck_text = deck.text});
+    Session run = make_session({.deck = deck.file, .deck_text = deck.text});
     if (!run.begin()) throw InputError("there is no equilibrium at the start: " + run.problem());
     trace(run, most_seconds, give);
     const Record& record = run.record();

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "model/branch_map.hpp"
+#include "answers/branch_map.hpp"
 
 namespace arcwall {
 

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "answers/event_curve.hpp"
+#include "answers/worst_combination.hpp"
 #include "apps/output/curve_page.hpp"
 #include "apps/output/exit_status.hpp"
 #include "apps/output/files.hpp"
-#include "model/event_curve.hpp"
 #include "model/run_description.hpp"
-#include "model/worst_combination.hpp"
 
 namespace arcwall {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "answers/event_curve.hpp"
 #include "apps/output/load_text.hpp"
-#include "model/event_curve.hpp"
 
 namespace arcwall {
 

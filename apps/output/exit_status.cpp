@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "model/search.hpp"
+#include "answers/search.hpp"
 
 namespace arcwall {
 

@@ -5,13 +5,13 @@
 #include <tuple>
 #include <utility>
 
+#include "answers/event_curve.hpp"
 #include "apps/output/files.hpp"
 #include "model/deck/given_points.hpp"
 #include "model/deck/numbers.hpp"
 #include "model/deck/reader.hpp"
 #include "model/deck/toml_source.hpp"
 #include "model/deck/value.hpp"
-#include "model/event_curve.hpp"
 #include "model/model.hpp"
 
 namespace arcwall::sweep {

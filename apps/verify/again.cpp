@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "answers/deck_family.hpp"
+#include "answers/search.hpp"
+#include "answers/sessions.hpp"
 #include "core/text.hpp"
-#include "model/deck_family.hpp"
 #include "model/event_names.hpp"
-#include "model/search.hpp"
 
 namespace arcwall::verify {
 
@@ -232,7 +233,7 @@ std::optional<Session> traced_again(const Session& run) {
   // anew.
   shorter.assignments.emplace_back("path.search=false");
   shorter.assignments.emplace_back("path.jumps=false");  // falls have no steps of the path
-  std::optional<Session> again(std::in_place, std::move(shorter));
+  std::optional<Session> again = make_session(std::move(shorter));
   if (!again->begin()) return std::nullopt;
   again->trace_also(found_starts(run.record(), again->model()));
   while (again->next() != nullptr) {

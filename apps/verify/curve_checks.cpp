@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "answers/sessions.hpp"
 #include "apps/output/curve_files.hpp"
 #include "apps/verify/compliant_walls.hpp"
 #include "apps/verify/copies.hpp"
@@ -170,7 +171,7 @@ std::optional<double> lambda_of_run(const RunDescription& of, const EventCurve& 
   run.traced = Traced::path;
   run.assignments = assignments_at(of, curve.key, point.key);
   for (const char* off : {"path.search=false", "path.jumps=false"}) run.assignments.emplace_back(off);
-  Session session(std::move(run));
+  Session session = make_session(std::move(run));
   if (!session.begin()) return std::nullopt;
   std::optional<double> nearest;
   while (session.next() != nullptr) {

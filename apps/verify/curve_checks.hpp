@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "answers/curve_session.hpp"
 #include "apps/verify/again.hpp"
 #include "apps/verify/verify.hpp"
-#include "model/curve_session.hpp"
 
 /// Checks a curve of events again: each point against the deck with the number's value there, by plain formulas.
 namespace arcwall::verify {

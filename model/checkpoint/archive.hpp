@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "contact/sliding_contact.hpp"
-#include "continuation/answers/event_system.hpp"
+#include "continuation/event_curves/event_system.hpp"
 #include "continuation/path_point.hpp"
 
 /// Values to and from JSON trees, exactly: what is kept of a run. A structure is an array of its parts in the order in

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "continuation/answers/event_system.hpp"
+#include "continuation/event_curves/event_system.hpp"
 #include "continuation/explorer.hpp"
 #include "model/checkpoint/archive.hpp"
 

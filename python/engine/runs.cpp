@@ -4,13 +4,13 @@
 #include <optional>
 #include <utility>
 
+#include "answers/sessions.hpp"
 #include "apps/cli/trace_and_write.hpp"
 #include "apps/output/branch_map_page.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/load_text.hpp"
 #include "apps/output/report_html.hpp"
 #include "apps/output/search_rows.hpp"
-#include "model/session.hpp"
 #include "python/engine/columns.hpp"
 #include "python/engine/deck_file.hpp"
 #include "python/engine/interrupt_watch.hpp"
@@ -29,13 +29,13 @@ class Run {
                                       const std::vector<std::string>& assignments) {
     const Clock::time_point begin = Clock::now();
     const py::gil_scoped_release without_lock;
-    Session session(described(file, text, assignments));
+    Session session = make_session(described(file, text, assignments));
     return std::make_unique<Run>(std::move(session), seconds_since(begin));
   }
 
   static std::unique_ptr<Run> of_checkpoint(const py::bytes& checkpoint, const std::string& name) {
     return std::make_unique<Run>(
-        Session::from(static_cast<std::string_view>(checkpoint), name, Session::Resume::go_on));
+        resume_session(static_cast<std::string_view>(checkpoint), name, Session::Resume::go_on));
   }
 
   static std::unique_ptr<Run> of_folder(const std::string& folder) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "answers/sessions.hpp"
 #include "apps/cli/example_decks.hpp"
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/expect_whole.hpp"
@@ -254,9 +255,9 @@ TEST(Pipeline, LeavesAPitchforkOnceThoughItComesBackOnAnotherMesh) {
   const auto pipeline =
       std::find_if(devices.begin(), devices.end(), [](const ExampleDeck& device) { return device.name == "pipeline"; });
   ASSERT_NE(pipeline, devices.end());
-  Session run({.deck = "pipeline.toml",
-               .deck_text = std::string(pipeline->text),
-               .assignments = {"path.branches=\"most-stable\"", "load.0.distributed=[0.0, -1.03]"}});
+  Session run = make_session({.deck = "pipeline.toml",
+                              .deck_text = std::string(pipeline->text),
+                              .assignments = {"path.branches=\"most-stable\"", "load.0.distributed=[0.0, -1.03]"}});
   ASSERT_TRUE(run.begin()) << run.problem();
   while (run.next() != nullptr) ASSERT_LT(run.points().size(), 300u);
   EXPECT_EQ(run.record().branches.size(), 2u);

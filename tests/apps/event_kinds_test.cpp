@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "model/branch_map.hpp"
+#include "answers/branch_map.hpp"
 #include "model/event_names.hpp"
 #include "tests/apps/traced_deck.hpp"
 

@@ -10,8 +10,8 @@
 #include <tuple>
 #include <vector>
 
+#include "answers/event_curve.hpp"
 #include "model/deck/reader.hpp"
-#include "model/event_curve.hpp"
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/expect_whole.hpp"
 

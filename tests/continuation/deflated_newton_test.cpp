@@ -1,4 +1,4 @@
-#include "continuation/answers/deflated_newton.hpp"
+#include "continuation/equilibria/deflated_newton.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "answers/deck_answers.hpp"
 #include "core/error.hpp"
 #include "model/checkpoint/archive.hpp"
 #include "model/checkpoint/checkpoint_file.hpp"
@@ -39,7 +40,7 @@ bool is_to_go_on(std::string_view bytes) { return is_one_in(128, bytes); }
 void take_up(const json& kept, json content, bool go_on) try {
   if (!content.is_array() || content.size() < head_entries) return;
   std::copy_n(kept.begin(), head_entries, content.begin());
-  Session run = SessionContent::read(content, "checkpoint", Session::Resume::go_on);
+  Session run = SessionContent::read(content, "checkpoint", Session::Resume::go_on, deck_answers());
   ++tally.taken_up;
   if (!go_on) return;
   run.next();

@@ -6,13 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "answers/sessions.hpp"
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/path_csv.hpp"
 #include "apps/output/result_json.hpp"
 #include "model/deck/reader.hpp"
-#include "model/session.hpp"
 #include "tests/fuzz/mutated_deck.hpp"
 #include "tests/fuzz/require.hpp"
 
@@ -46,7 +46,7 @@ void write(const Session& run) {
 
 void follow(const std::string& text) {
   if (!is_small(deck::read_deck_text(text, "fuzz.toml"))) return;
-  Session run({.deck = "fuzz.toml", .deck_text = text});
+  Session run = make_session({.deck = "fuzz.toml", .deck_text = text});
   if (!run.begin()) {
     require(!run.problem().empty(), "there is no start and no reason");
     return;
@@ -54,7 +54,7 @@ void follow(const std::string& text) {
   for (int points = 0; points < most_points && run.next() != nullptr; ++points) continue;
   check_points(run.record());
   if (run.record().points.empty()) return;
-  const Session again = Session::from(run.checkpoint(), "checkpoint", Session::Resume::go_on);
+  const Session again = resume_session(run.checkpoint(), "checkpoint", Session::Resume::go_on);
   require(path_csv(again.record(), UnitLabels::shown) == path_csv(run.record(), UnitLabels::shown),
           "a run that is kept reads otherwise");
   run.stop({.reason = EndReason::max_points, .detail = ""});

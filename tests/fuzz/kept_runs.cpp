@@ -2,9 +2,9 @@
 
 #include <string>
 
+#include "answers/sessions.hpp"
 #include "apps/cli/example_decks.hpp"
 #include "model/checkpoint/checkpoint_file.hpp"
-#include "model/session.hpp"
 #include "tests/fuzz/require.hpp"
 
 namespace arcwall::fuzz {
@@ -20,7 +20,7 @@ std::string example(const std::string& name) {
 
 nlohmann::json kept(const std::string& name, const std::vector<std::string>& assignments, int points) {
   const RunDescription description{.deck = name + ".toml", .deck_text = example(name), .assignments = assignments};
-  Session run(description);
+  Session run = make_session(description);
   require(run.begin(), "a base run has no start");
   for (int i = 0; i < points; ++i) run.next();
   return from_checkpoint(run.checkpoint(), "checkpoint");

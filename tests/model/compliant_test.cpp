@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/sessions.hpp"
 #include "core/derivative_check.hpp"
 #include "core/error.hpp"
 #include "model/deck/reader.hpp"
@@ -119,7 +120,7 @@ TEST(CompliantWalls, HaveRightDerivatives) {
     for (const std::string surface : {"axis", "face"})
       for (const std::string& law : laws) {
         SCOPED_TRACE(theory + ", " + surface + ", " + law);
-        const Session session({.deck = "walls.toml", .deck_text = among_walls(theory, surface, law)});
+        const Session session = make_session({.deck = "walls.toml", .deck_text = among_walls(theory, surface, law)});
         const System& system = session.model().system();
         for (int i = 0; i < 6; ++i) {
           State state{
@@ -505,7 +506,7 @@ TEST(CompliantWalls, HaveForcesOfOrderTwoInTheMesh) {
 TEST(CompliantWalls, TendToRigidOnes) {
   const auto run_of = [](const std::string& file, std::vector<std::string> assignments) {
     assignments.insert(assignments.end(), {"path.jumps=false", "path.stop.event=\"limit-point\""});
-    Session run = Session::open(std::string(EXAMPLES) + "/" + file, assignments);
+    Session run = open_session(std::string(EXAMPLES) + "/" + file, assignments);
     while (run.next() != nullptr) {
     }
     return run;
@@ -600,7 +601,7 @@ TEST(CompliantWalls, AreTouchedAndLeftAsTheyMove) {
 TEST(CompliantWalls, RefuseWhatTheyAreNot) {
   const auto message = [](const std::string& text) -> std::string {
     try {
-      const Session session({.deck = "deck.toml", .deck_text = text});
+      const Session session = make_session({.deck = "deck.toml", .deck_text = text});
       return "";
     } catch (const InputError& error) {
       return error.what();

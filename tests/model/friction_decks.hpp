@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "model/session.hpp"
+#include "answers/sessions.hpp"
 
 /// Decks with friction, and what is read off their runs.
 namespace arcwall::friction_test {
 
 inline Session session_of(const std::string& text) {
-  return Session({.deck = "friction.toml", .deck_text = "title = \"Friction\"\n" + text});
+  return make_session({.deck = "friction.toml", .deck_text = "title = \"Friction\"\n" + text});
 }
 
 inline Session run_of(const std::string& text) {
@@ -191,7 +191,7 @@ component = "force-z"
 inline void expect_resumed(const std::string& text, const Session& whole, std::size_t killed) {
   Session first = session_of(text);
   while (first.points().size() < killed) ASSERT_NE(first.next(), nullptr);
-  Session rest = Session::from(first.checkpoint(), "checkpoint", Session::Resume::go_on);
+  Session rest = resume_session(first.checkpoint(), "checkpoint", Session::Resume::go_on);
   while (rest.next() != nullptr) {
   }
   ASSERT_EQ(rest.points().size(), whole.points().size());

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/sessions.hpp"
 #include "core/text.hpp"
 #include "tests/model/traced_session.hpp"
 
@@ -191,9 +192,9 @@ TEST(Lying, AClampThatTurnsIsRefused) {
   const std::string turned =
       "load = [{ on = \"beam\", distributed = [0.0, -1.0], constant = true }]\n"
       "prescribed = [{ at = \"b\", rotation = -1.0 }]\n";
-  Session run({.deck = "deck.toml",
-               .deck_text = beam(turned + "path = { step = 0.01, stop = { lambda = [-1.0, 1.0] } }"),
-               .assignments = {}});
+  Session run = make_session({.deck = "deck.toml",
+                              .deck_text = beam(turned + "path = { step = 0.01, stop = { lambda = [-1.0, 1.0] } }"),
+                              .assignments = {}});
   EXPECT_FALSE(run.begin());
   EXPECT_NE(run.problem().find("rests on wall \"floor\" along its whole length"), std::string::npos) << run.problem();
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "model/session.hpp"
+#include "answers/sessions.hpp"
 #include "tests/model/traced_session.hpp"
 
 namespace arcwall::missed_corners_test {
@@ -59,7 +59,7 @@ std::string half() {
 }
 
 Session traced(const std::string& deck) {
-  Session run({.deck = "deck.toml", .deck_text = deck});
+  Session run = make_session({.deck = "deck.toml", .deck_text = deck});
   EXPECT_TRUE(run.begin()) << run.problem();
   while (run.next() != nullptr) {
   }

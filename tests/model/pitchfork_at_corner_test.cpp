@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/sessions.hpp"
 #include "continuation/metric.hpp"
 #include "tests/model/traced_session.hpp"
 
@@ -119,7 +120,7 @@ TEST(PitchforkAtACorner, IsLeftBehindACheckpointToo) {
     SCOPED_TRACE(of_bottom);
     const std::string deck = ring("0.0", of_bottom);
     const std::vector<std::string> short_path{"path.jumps=false", "path.stop.down=[-0.1, 30.0]"};
-    Session whole({.deck = "deck.toml", .deck_text = deck, .assignments = short_path});
+    Session whole = make_session({.deck = "deck.toml", .deck_text = deck, .assignments = short_path});
     ASSERT_TRUE(whole.begin());
     std::vector<std::string> checkpoints;
     while (whole.next() != nullptr)
@@ -127,7 +128,7 @@ TEST(PitchforkAtACorner, IsLeftBehindACheckpointToo) {
     ASSERT_GT(checkpoints.size(), 3u);
     checkpoints.resize(4);
     for (const std::string& checkpoint : checkpoints) {
-      Session resumed = Session::from(checkpoint, "checkpoint", Session::Resume::go_on);
+      Session resumed = resume_session(checkpoint, "checkpoint", Session::Resume::go_on);
       while (resumed.next() != nullptr) {
       }
       ASSERT_EQ(resumed.record().points.size(), whole.record().points.size());

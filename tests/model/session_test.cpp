@@ -1,4 +1,4 @@
-#include "model/session.hpp"
+#include "answers/sessions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ const std::vector<Case> runs{{"channel"},
                              {"thick"}};
 
 Session opened(const Case& run) {
-  return Session::open(std::string(EXAMPLES) + "/" + run.deck + ".toml", run.assignments);
+  return open_session(std::string(EXAMPLES) + "/" + run.deck + ".toml", run.assignments);
 }
 
 // All of a run as bytes: every state, event and branch.
@@ -65,7 +65,7 @@ TEST(Session, OwnsAllThatItNeeds) {
   const std::string file = (folder / "column.toml").string();
   std::ofstream(file) << deck::column_deck;
   const std::string whole = [&] {
-    Session session = Session::open(file);
+    Session session = open_session(file);
     while (session.next() != nullptr) {
     }
     return session.checkpoint();
@@ -73,7 +73,7 @@ TEST(Session, OwnsAllThatItNeeds) {
 
   std::vector<Session> kept;
   {
-    Session session = Session::open(file);
+    Session session = open_session(file);
     session.next();
     kept.push_back(std::move(session));
   }
@@ -104,7 +104,7 @@ TEST(Session, BeginsOnce) {
   session.next();
   EXPECT_TRUE(session.begin());
   EXPECT_EQ(session.points().size(), 1U);
-  Session again = Session::from(session.checkpoint(), "checkpoint", Session::Resume::go_on);
+  Session again = resume_session(session.checkpoint(), "checkpoint", Session::Resume::go_on);
   EXPECT_TRUE(again.begin());
   while (again.next() != nullptr) {
   }
@@ -115,7 +115,7 @@ TEST(Session, HasNoPointsWhereItFindsNoStart) {
   std::ostringstream deck;
   deck << std::ifstream(std::string(EXAMPLES) + "/truss.toml").rdbuf()
        << "[[load]]\nat = \"top\"\nforce = [0.0, -1e300]\nconstant = true\n";
-  Session session({.deck = "heavy.toml", .deck_text = deck.str()});
+  Session session = make_session({.deck = "heavy.toml", .deck_text = deck.str()});
   EXPECT_FALSE(session.begin());
   const std::string problem = session.problem();
   EXPECT_NE(problem.find("find no equilibrium"), std::string::npos) << problem;
@@ -128,7 +128,7 @@ TEST(Session, HasNoPointsWhereItFindsNoStart) {
 
 // Driven by λ the same loads have a limit point at λ = 0.843, behind which the path goes back for ever.
 TEST(Session, SaysWhereAStructureGivesWayToItsConstantLoads) {
-  Session session({.deck = "portal.toml", .deck_text = R"toml(
+  Session session = make_session({.deck = "portal.toml", .deck_text = R"toml(
 title = "A portal under constant loads beyond its limit"
 material.m = { E = 1.0 }
 section.s = { shape = "general", A = 1e4, I = 1.0 }
@@ -154,7 +154,7 @@ TEST(Session, IsNotStoppedBeforeItBegins) {
 }
 
 TEST(Session, SaysWhatIsWrongWithADeck) {
-  EXPECT_THROW(Session::open("no such file.toml"), InputError);
+  EXPECT_THROW(open_session("no such file.toml"), InputError);
   EXPECT_THROW(opened({"truss", {"section.bar.A = -1.0", "member.left.elements = 0"}}), InputError);
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/session.hpp"
+#include "answers/sessions.hpp"
 #include "tests/model/traced_session.hpp"
 
 namespace arcwall::short_parts_test {
@@ -58,7 +58,7 @@ struct Traced {
 };
 
 Traced traced(const std::string& deck) {
-  Session run({.deck = "deck.toml", .deck_text = deck});
+  Session run = make_session({.deck = "deck.toml", .deck_text = deck});
   EXPECT_TRUE(run.begin()) << run.problem();
   while (run.next() != nullptr) {
   }
@@ -306,7 +306,7 @@ std::string bistable(int elements) {
 TEST(ShortParts, EndAsNearToALoadedJointAsTheLoadIsLargeSlow) {
   for (const int elements : {20, 40}) {
     SCOPED_TRACE(elements);
-    Session run({.deck = "deck.toml", .deck_text = bistable(elements)});
+    Session run = make_session({.deck = "deck.toml", .deck_text = bistable(elements)});
     ASSERT_TRUE(run.begin()) << run.problem();
     while (run.next() != nullptr) {
     }

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "answers/sessions.hpp"
 #include "core/root_find.hpp"
 #include "core/types.hpp"
-#include "model/session.hpp"
 
 namespace arcwall::slender_structures_test {
 namespace {
@@ -113,7 +113,7 @@ std::vector<Structure> structures() {
 }
 
 std::vector<double> branch_points(const std::string& text) {
-  Session session({.deck = "slender.toml", .deck_text = text});
+  Session session = make_session({.deck = "slender.toml", .deck_text = text});
   while (session.next() != nullptr) {
   }
   std::vector<double> found;
@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(All, SlenderStructure, testing::ValuesIn(structures()))
 // EA L²/EI of 3e20: several eigenvalues are zero to the last digit beside contacts that slide, and the path ends early.
 // It ends in a sentence all the same: modes of such a place have all unknowns, the places of the contacts among them.
 TEST(SlenderStructures, EndsWhereNothingButRoundOffIsLeft) {
-  Session run({.deck = "deck.toml", .deck_text = R"toml(
+  Session run = make_session({.deck = "deck.toml", .deck_text = R"toml(
 title = "a column of 5e8 in a channel"
 material.steel = { E = 21000.0 }
 section.square = { shape = "rectangle", width = 0.1, height = 0.1 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "answers/sessions.hpp"
 #include "model/event_names.hpp"
-#include "model/session.hpp"
 
 namespace arcwall::test {
 
@@ -17,7 +17,7 @@ inline Session traced(const std::string& deck, std::vector<std::string> assignme
   const auto speaks = [](const std::string& text) { return text.find("jumps") != std::string::npos; };
   if (!speaks(deck) && std::none_of(assignments.begin(), assignments.end(), speaks))
     assignments.emplace_back("path.jumps=false");
-  Session run({.deck = "deck.toml", .deck_text = deck, .assignments = assignments});
+  Session run = make_session({.deck = "deck.toml", .deck_text = deck, .assignments = assignments});
   if (!run.begin()) ADD_FAILURE() << run.problem();
   while (run.next() != nullptr) {
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/sessions.hpp"
 #include "core/derivative_check.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -44,7 +45,7 @@ std::vector<RecordEvent> events(const Session& run, EventKind kind) { return tes
 
 std::string problem_of(const std::vector<std::string>& assignments) {
   try {
-    const Session run({.deck = "deck.toml", .deck_text = column, .assignments = assignments});
+    const Session run = make_session({.deck = "deck.toml", .deck_text = column, .assignments = assignments});
   } catch (const InputError& error) {
     return error.what();
   }

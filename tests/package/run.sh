@@ -38,7 +38,8 @@ depends() {
 make_packages() {
   # Only the place of the libraries depends on the prefix; nothing is compiled again.
   cmake -S ../.. -B "$build" --log-level=WARNING -DCMAKE_INSTALL_PREFIX=/usr
-  local targets=(trace-path shell_files arcwall_core arcwall_continuation arcwall_elements arcwall_contact arcwall_model)
+  local targets=(trace-path shell_files arcwall_core arcwall_continuation arcwall_elements arcwall_contact arcwall_model
+    arcwall_answers)
   if [[ " ${packages[*]} " == *" python3-arcwall "* ]]; then targets+=(arcwall_python); fi
   cmake --build "$build" --parallel 2 --target "${targets[@]}" >/dev/null
   rm -rf "$build/packages"
@@ -57,8 +58,8 @@ look_at_packages() {
   local libraries
   libraries=/usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
   for file in /usr/bin/trace-path /usr/share/man/man1/trace-path.1.gz /usr/share/bash-completion/completions/trace-path \
-    /usr/include/arcwall/core/system.hpp /usr/include/arcwall/model/session.hpp /usr/include/arcwall/model/deck/reader.hpp \
-    "$libraries/libarcwall_core.a" "$libraries/libarcwall_model.a" "$libraries/cmake/arcwall/arcwallConfig.cmake"; do
+    /usr/include/arcwall/core/system.hpp /usr/include/arcwall/answers/sessions.hpp /usr/include/arcwall/model/deck/reader.hpp \
+    "$libraries/libarcwall_core.a" "$libraries/libarcwall_model.a" "$libraries/libarcwall_answers.a" "$libraries/cmake/arcwall/arcwallConfig.cmake"; do
     has "$file"
   done
   # All below /usr, owned by root, folders and programs 755, other files 644.

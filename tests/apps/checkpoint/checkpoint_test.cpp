@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "answers/sessions.hpp"
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/path_csv.hpp"
 #include "core/error.hpp"
 #include "model/checkpoint/archive.hpp"
 #include "model/checkpoint/checkpoint_file.hpp"
-#include "model/session.hpp"
 #include "tests/apps/traced_deck.hpp"
 
 // A run that is kept and taken up again goes on to the last bit as if it had never stopped.
@@ -28,7 +28,7 @@ using Resume = Session::Resume;
 using Assignments = std::vector<std::string>;
 
 Session begun(const std::string& example, const Assignments& assignments = {}) {
-  Session run(
+  Session run = make_session(
       {.deck = example + ".toml", .deck_text = std::string(test::example(example)), .assignments = assignments});
   EXPECT_TRUE(run.begin()) << run.problem();
   return run;
@@ -38,7 +38,7 @@ Session begun(const std::string& example, const Assignments& assignments = {}) {
 Session traced(const std::string& example, const Assignments& assignments, int stride) {
   Session run = begun(example, assignments);
   for (int points = 1; run.next() != nullptr; ++points)
-    if (stride > 0 && points % stride == 0) run = Session::from(run.checkpoint(), "checkpoint", Resume::go_on);
+    if (stride > 0 && points % stride == 0) run = resume_session(run.checkpoint(), "checkpoint", Resume::go_on);
   return run;
 }
 
@@ -110,11 +110,11 @@ std::string large_frame() {
 
 TEST(Checkpoint, ALargeFrameGoesOnToTheLastBitBeyondItsLimitPointSlow) {
   const RunDescription frame{.deck = "frame.toml", .deck_text = large_frame()};
-  Session whole(frame), parts(frame);
+  Session whole = make_session(frame), parts = make_session(frame);
   ASSERT_TRUE(whole.begin() && parts.begin()) << whole.problem();
   for (int points = 1; points <= 20; ++points) {
     ASSERT_TRUE(whole.next() != nullptr && parts.next() != nullptr);
-    if (points % 3 == 0) parts = Session::from(parts.checkpoint(), "checkpoint", Resume::go_on);
+    if (points % 3 == 0) parts = resume_session(parts.checkpoint(), "checkpoint", Resume::go_on);
   }
   const auto limit = [](const RecordEvent& event) { return event.kind == EventKind::limit_point; };
   EXPECT_TRUE(std::any_of(whole.record().events.begin(), whole.record().events.end(), limit));
@@ -158,9 +158,9 @@ TEST(Checkpoint, IsRefusedWhoseContentIsNotThatOfARun) {
   Session run = begun("channel", {"member.column.elements=8"});
   for (int i = 0; i < 20; ++i) run.next();
   const Json content = from_checkpoint(run.checkpoint(), "checkpoint");
-  ASSERT_NO_THROW(Session::from(to_checkpoint(content), "checkpoint", Resume::go_on));
+  ASSERT_NO_THROW(resume_session(to_checkpoint(content), "checkpoint", Resume::go_on));
   const auto refused = [](const Json& changed) {
-    EXPECT_THROW(Session::from(to_checkpoint(changed), "checkpoint", Resume::go_on), OutputError);
+    EXPECT_THROW(resume_session(to_checkpoint(changed), "checkpoint", Resume::go_on), OutputError);
   };
   // Each entry in turn is taken away, or something else stands in its place.
   for (std::size_t entry = 0; entry < content.size(); ++entry) {
@@ -193,7 +193,7 @@ TEST(Checkpoint, IsRefusedWithACountBeyondReason) {
                               std::numeric_limits<std::int64_t>::max()}) {
       Json changed = content;
       changed[Json::json_pointer(pointer)] = beyond;
-      EXPECT_THROW(Session::from(to_checkpoint(changed), "checkpoint", Resume::go_on), OutputError) << pointer;
+      EXPECT_THROW(resume_session(to_checkpoint(changed), "checkpoint", Resume::go_on), OutputError) << pointer;
     }
     ++counts;
   }
@@ -215,7 +215,7 @@ TEST(Checkpoint, IsRefusedOrGoesOnWithAnyListEmptied) {
       changed[list] = Json::array();
       ++emptied;
       try {
-        Session other = Session::from(to_checkpoint(changed), "checkpoint", Resume::go_on);
+        Session other = resume_session(to_checkpoint(changed), "checkpoint", Resume::go_on);
         for (int i = 0; i < 3 && other.next() != nullptr; ++i) continue;
       } catch (const OutputError&) {
         ++refused;
@@ -245,11 +245,11 @@ TEST(Checkpoint, KnowsAnEndFromOutsideOnlyForThoseWhoAsk) {
   Session run = begun("truss");
   for (int i = 0; i < 5; ++i) run.next();
   const std::string bytes = run.checkpoint(BranchEnd{.reason = EndReason::interrupted, .detail = "by a signal"});
-  const Session ended = Session::from(bytes, "checkpoint", Resume::as_ended);
+  const Session ended = resume_session(bytes, "checkpoint", Resume::as_ended);
   ASSERT_TRUE(ended.record().branches.front().end);
   EXPECT_EQ(ended.record().branches.front().end->reason, EndReason::interrupted);
   EXPECT_EQ(ended.record().events.back().kind, EventKind::end);
-  Session resumed = Session::from(bytes, "checkpoint", Resume::go_on);
+  Session resumed = resume_session(bytes, "checkpoint", Resume::go_on);
   EXPECT_FALSE(resumed.record().branches.front().end);
   while (resumed.next() != nullptr) {
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/sessions.hpp"
 #include "apps/output/load_text.hpp"
 #include "core/error.hpp"
 #include "model/deck/reader.hpp"
@@ -119,9 +120,10 @@ const std::string bend = stage("bend", "\"load.0\"", 0.2, -1.0, 3.0);
 
 // Stopped after so many points and taken up again, to the last bit.
 void expect_resumed_alike(const std::string& deck, const TracedDeck& whole, std::size_t stop) {
-  Session run({.deck = "deck.toml", .deck_text = deck, .assignments = {"path.jumps=false"}});  // as TracedDeck has it
+  Session run = make_session(
+      {.deck = "deck.toml", .deck_text = deck, .assignments = {"path.jumps=false"}});  // as TracedDeck has it
   for (std::size_t i = 0; i < stop; ++i) ASSERT_NE(run.next(), nullptr);
-  Session resumed = Session::from(run.checkpoint(), "checkpoint", Session::Resume::go_on);
+  Session resumed = resume_session(run.checkpoint(), "checkpoint", Session::Resume::go_on);
   while (resumed.next() != nullptr) {
   }
   EXPECT_EQ(path_csv(resumed.record(), UnitLabels::shown), path_csv(whole.record(), UnitLabels::shown)) << stop;

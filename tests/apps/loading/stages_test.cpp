@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/sessions.hpp"
 #include "core/error.hpp"
 #include "model/deck/reader.hpp"
 #include "model/deck/writer.hpp"
@@ -313,9 +314,9 @@ TEST(Stages, GoOnFromACheckpointSlow) {
     const TracedDeck whole(deck);
     const std::size_t count = whole.record().points.size();
     for (const std::size_t stop : {std::size_t{3}, count / 2, count - 2}) {
-      Session run({.deck = "deck.toml", .deck_text = deck});
+      Session run = make_session({.deck = "deck.toml", .deck_text = deck});
       for (std::size_t i = 0; i < stop; ++i) ASSERT_NE(run.next(), nullptr);
-      Session resumed = Session::from(run.checkpoint(), "checkpoint", Session::Resume::go_on);
+      Session resumed = resume_session(run.checkpoint(), "checkpoint", Session::Resume::go_on);
       while (resumed.next() != nullptr) {
       }
       EXPECT_EQ(path_csv(resumed.record(), UnitLabels::shown), path_csv(whole.record(), UnitLabels::shown)) << stop;

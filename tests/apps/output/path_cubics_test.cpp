@@ -1,4 +1,5 @@
 #include "apps/output/path_cubics.hpp"
+#include "answers/sessions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -72,9 +73,9 @@ TEST(PathCubics, ThePathHasAKinkWhereAContactCloses) {
 }
 
 TEST(PathCubics, AResumedRunHasTheSameRates) {
-  Session run = Session(test::TracedDeck(test::example("channel")).session().description());
+  Session run = make_session(test::TracedDeck(test::example("channel")).session().description());
   for (int i = 0; i < 20; ++i) ASSERT_NE(run.next(), nullptr);
-  Session resumed = Session::from(run.checkpoint(), "checkpoint", Session::Resume::go_on);
+  Session resumed = resume_session(run.checkpoint(), "checkpoint", Session::Resume::go_on);
   while (run.next() != nullptr) continue;
   while (resumed.next() != nullptr) continue;
   ASSERT_EQ(run.points().size(), resumed.points().size());
