@@ -25,12 +25,12 @@ Examples
 from ._engine import version as __version__
 from .branch_map import BranchMap, BranchMapEdge, BranchMapRange, BranchMapSegment
 from .curves import Curve
-from .deck import Deck
+from .deck import Deck, load
 from .errors import ArcwallError, DeckError, Diagnostic, FileError, NoAnswer, NoStart, NotFinite
 from .event_curves import CurveSpecial, EventCurve, WorstCombination
 from .events import Branch, Contact, Continuum, End, Event, Events, Found, Jump, JumpContact, Point, Return, Search
 from .exploring import Exploration, explore
-from .path import Path, State, Tracing, load
+from .path import Path, State, Tracing
 from .shapes import ContactMark, MemberShape, Shape, WallShape
 from .studies import ConvergedEvent, ConvergedMonitor, Convergence
 from .systems import Detector, System, SystemPath, trace

@@ -213,9 +213,13 @@ class Curve:
         >>> axes.get_xlabel(), axes.get_ylabel()
         ('w [m]', 'load factor λ')
         """
-        from .pictures import plot
+        from . import pictures
 
-        return plot(self, x, y, ax, events)
+        if x is None:
+            x = next(iter(self.monitors), "arc")
+        across, up = (pictures.Column(name, self[name], self.monitors.get(name, "")) for name in (x, y))
+        marks = [(event.point, event.kind) for event in self.events] if events else []
+        return pictures.plot(across, up, self._run.lines(), marks, self.title, ax)
 
     def _repr_html_(self) -> str:
         """Return the curve of ``report.html`` over the first monitor, as a self-contained element."""

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import _engine, toml
 from .errors import DeckError, Diagnostic
+from .event_curves import EventCurve, WorstCombination, worst_of
+from .path import Path, Tracing
+from .studies import Convergence
 
-if TYPE_CHECKING:
-    from .event_curves import EventCurve, WorstCombination
-    from .path import Path, Tracing
-    from .studies import Convergence
-
-__all__ = ["Deck"]
+__all__ = ["Deck", "load"]
 
 
 class Deck:
@@ -335,11 +333,9 @@ class Deck:
         >>> [point.index for point in tracing][-1], tracing.path.ended
         (21, True)
         """
-        from .path import Path, Tracing
-
         wanted = {"path.sensitivity": _list_of_keys(sensitivity), "path.jumps": jumps}
         deck = self.copy({key: value for key, value in wanted.items() if value is not None})
-        return Tracing(Path(_engine.Run(deck._name, deck._text, deck._assignments)))
+        return Tracing(Path(_engine.Run(deck._name, deck._text, deck._assignments), Deck._of))
 
     def trace(
         self,
@@ -414,8 +410,6 @@ class Deck:
         >>> [event.kind for event in study.events][:3]
         ['contact-closes', 'contact-splits', 'limit-point']
         """
-        from .studies import Convergence
-
         for name, number, most in (("levels", levels, 8), ("factor", factor, 10)):
             if not isinstance(number, int) or not 2 <= number <= most:
                 raise ValueError(f"{name} = {number!r} is out of range; give a whole number from 2 to {most}")
@@ -472,8 +466,6 @@ class Deck:
         >>> [round(float(load), 6) for load in curve["lambda"][[0, -1]]]
         [37.540603, 38.298999]
         """
-        from .event_curves import EventCurve
-
         wanted = {"parameter": parameter, "range": range, "step": step, "max_points": max_points, "output_at": output_at}
         deck = self._asking(event, number, wanted, {"worst", "radius"})
         return EventCurve(deck, *_engine.event_curve(deck._name, deck._text, deck._assignments))
@@ -518,8 +510,6 @@ class Deck:
         >>> round(worst.values["material.bar.E"], 3), round(worst.lam, 6)
         (99000.0, 37.540603)
         """
-        from .event_curves import worst_of
-
         wanted = {"worst": _list_of_keys(keys), "radius": radius}
         deck = self._asking(event, number, wanted, {"parameter", "range", "step", "max_points", "output_at"})
         return worst_of(deck, *_engine.worst(deck._name, deck._text, deck._assignments))
@@ -541,6 +531,35 @@ class Deck:
         if "output_at" in given and not len(given["output_at"]):  # no values at all
             del table["output_at"]
         return self.copy({"curve": table})
+
+
+def load(folder: str | os.PathLike[str]) -> Path:
+    """Read the path of a run folder from its ``checkpoint``.
+
+    An interrupted path can be continued by `Path.resume`. The folder is not changed.
+
+    Parameters
+    ----------
+    folder : str or os.PathLike
+        Run folder of `Path.save` or ``trace-path run``.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    FileError
+        If the folder has no checkpoint of this version.
+
+    Examples
+    --------
+    >>> arcwall.Deck.load("truss.toml").trace(max_points=5).save("truss-begun", pictures=False)
+    >>> path = arcwall.load("truss-begun")
+    >>> path.ended, len(path.resume())
+    (False, 22)
+    """
+    return Path(_engine.Run.of_folder(os.fspath(folder)), Deck._of)
 
 
 def _list_of_keys(keys: Iterable[str] | None) -> list[str] | None:

@@ -222,9 +222,14 @@ class EventCurve:
         KeyError
             If there is no such column.
         """
-        from .pictures import plot_event_curve
+        from . import pictures
 
-        return plot_event_curve(self, x, y, ax)
+        across, up = (
+            pictures.Column(self.parameter if name == "key" else name, self[name], self.units[name]) for name in (x, y)
+        )
+        unstable = zip(self["unstable_before"], self["unstable_after"])
+        specials = [(special.point, special.kind) for special in self.specials]
+        return pictures.plot_event_curve(across, up, unstable, specials, f"{self.event} {self.number}", ax)
 
     def report(self) -> str:
         """Return ``report.html`` of ``trace-path curve``.

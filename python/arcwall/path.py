@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +13,6 @@ import numpy as np
 from . import _engine
 from .branch_map import BranchMap, branch_map_of
 from .curves import Curve, row_of
-from .deck import Deck
 from .events import Point, Search, point_of, searches_of
 from .shapes import Shape, shape_of
 
@@ -22,9 +21,10 @@ if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
 
+    from .deck import Deck
     from .studies import Convergence
 
-__all__ = ["Path", "State", "Tracing", "load"]
+__all__ = ["Path", "State", "Tracing"]
 
 
 @dataclass(frozen=True)
@@ -77,11 +77,16 @@ class Path(Curve):
     ('cm', 'cm', -0.15)
     """
 
+    # `deck_of` makes a deck of a text, a name and assignments; decks import paths, not paths decks.
+    def __init__(self, run: Any, deck_of: Callable[[bytes, str, list[str]], Deck]):
+        super().__init__(run)
+        self._deck_of = deck_of
+
     @property
     def deck(self) -> Deck:
         """Deck of the path, a copy."""
         name, text, assignments = self._run.description()
-        return Deck._of(text.encode(), name, assignments)
+        return self._deck_of(text.encode(), name, assignments)
 
     @property
     def warnings(self) -> list[str]:
@@ -320,9 +325,9 @@ class Path(Curve):
         >>> arcwall.Deck.load("channel.toml").trace().plot_shape().get_title()
         'λ = 9'
         """
-        from .pictures import plot_shape
+        from . import pictures
 
-        return plot_shape(self, point, ax)
+        return pictures.plot_shape(self.shape(point), self.shape(0), self.units["length"], ax)
 
     def animate(self, *, every: int = 1, interval: int = 50) -> FuncAnimation:
         """Make an animation of the shapes along the path; needs matplotlib.
@@ -343,17 +348,22 @@ class Path(Curve):
         ValueError
             If ``every`` is less than 1 or the path has no points.
         """
-        from .pictures import animate
+        from . import pictures
 
-        return animate(self, every, interval)
+        if every < 1:
+            raise ValueError(f"every = {every} is no number of points; give 1 or more")
+        shapes = [self.shape(i) for i in range(0, len(self), every)]
+        if not shapes:
+            raise ValueError("a path without points cannot be drawn")
+        return pictures.animate(shapes, self.units["length"], interval)
 
     # --- copies ---------------------------------------------------------------------------------------------------------
 
     def __reduce__(self) -> tuple[Any, ...]:
         name, text, assignments = self._run.description()
         if not len(self):
-            return _begun, (name, text, assignments)
-        return _restored, (self._run.checkpoint(),)
+            return _begun, (self._deck_of, name, text, assignments)
+        return _restored, (self._deck_of, self._run.checkpoint())
 
     def __copy__(self) -> Path:
         return self.__deepcopy__({})
@@ -363,12 +373,12 @@ class Path(Curve):
         return make(*arguments)
 
 
-def _begun(name: str, text: bytes, assignments: list[str]) -> Path:
-    return Path(_engine.Run(name, text, assignments))
+def _begun(deck_of: Any, name: str, text: bytes, assignments: list[str]) -> Path:
+    return Path(_engine.Run(name, text, assignments), deck_of)
 
 
-def _restored(checkpoint: bytes) -> Path:
-    return Path(_engine.Run.of_checkpoint(checkpoint, "a pickled path"))
+def _restored(deck_of: Any, checkpoint: bytes) -> Path:
+    return Path(_engine.Run.of_checkpoint(checkpoint, "a pickled path"), deck_of)
 
 
 class Tracing(Iterator[Point]):
@@ -404,32 +414,3 @@ class Tracing(Iterator[Point]):
 
     def __repr__(self) -> str:
         return f"<arcwall.Tracing of {self.path!r}>"
-
-
-def load(folder: str | os.PathLike[str]) -> Path:
-    """Read the path of a run folder from its ``checkpoint``.
-
-    An interrupted path can be continued by `Path.resume`. The folder is not changed.
-
-    Parameters
-    ----------
-    folder : str or os.PathLike
-        Run folder of `Path.save` or ``trace-path run``.
-
-    Returns
-    -------
-    Path
-
-    Raises
-    ------
-    FileError
-        If the folder has no checkpoint of this version.
-
-    Examples
-    --------
-    >>> arcwall.Deck.load("truss.toml").trace(max_points=5).save("truss-begun", pictures=False)
-    >>> path = arcwall.load("truss-begun")
-    >>> path.ended, len(path.resume())
-    (False, 22)
-    """
-    return Path(_engine.Run.of_folder(os.fspath(folder)))

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from .curves import Curve
-    from .event_curves import EventCurve
-    from .path import Path
-    from .shapes import Shape
+from .shapes import Shape
 
 #: Okabe and Ito's palette, as in report.html.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
@@ -44,6 +41,20 @@ _SPECIAL_MARKS = {
 }
 
 
+class Column(NamedTuple):
+    """Column of a table, with its unit: what an axis shows."""
+
+    name: str
+    values: np.ndarray
+    unit: str
+
+    @property
+    def label(self) -> str:
+        """Label of the axis."""
+        shown = {"lambda": "load factor λ", "arc": "arc length"}.get(self.name, self.name)
+        return f"{shown} [{self.unit}]" if self.unit else shown
+
+
 def _axes(ax: Any) -> Any:
     if ax is not None:
         return ax
@@ -52,67 +63,54 @@ def _axes(ax: Any) -> Any:
     return plt.subplots()[1]
 
 
-def _shown(column: str) -> str:
-    return {"lambda": "load factor λ", "arc": "arc length"}.get(column, column)
-
-
-def _with_unit(name: str, unit: str) -> str:
-    return f"{name} [{unit}]" if unit else name
-
-
-def _title(path: Curve, column: str) -> str:
-    return _with_unit(_shown(column), path.monitors.get(column, ""))
-
-
 def _draw_mark(ax: Any, x: Any, y: Any, mark: tuple[str, int, bool]) -> None:
     marker, size, filled = mark
     ax.plot(x, y, marker, ms=size, mfc="black" if filled else "white", mec="black", zorder=3)
 
 
-def plot(path: Curve, x: str | None, y: str, ax: Any, events: bool) -> Any:
-    if x is None:
-        x = next(iter(path.monitors), "arc")
-    across, up = path[x], path[y]
-    for name, column in ((x, across), (y, up)):
-        if column.dtype == object:
-            raise TypeError(f"column {name!r} has no numbers to draw")
-    ax = _axes(ax)
-    for branch, stability, first, last in path._run.lines():
-        ax.plot(
-            across[first : last + 1],
-            up[first : last + 1],
-            _DASHES[stability],
-            color=COLOURS[branch % len(COLOURS)],
-            linewidth=1.8,
-        )
-    for event in path.events if events else ():
-        _draw_mark(ax, across[event.point], up[event.point], MARKS[event.kind])
-    ax.set_xlabel(_title(path, x))
-    ax.set_ylabel(_title(path, y))
-    if path.title:
-        ax.set_title(path.title)
+def _draw_line(ax: Any, x: Column, y: Column, first: int, last: int, stability: str, colour: str) -> None:
+    part = slice(first, last + 1)
+    ax.plot(x.values[part], y.values[part], _DASHES[stability], color=colour, linewidth=1.8)
+
+
+def _label(ax: Any, x: Column, y: Column, title: str) -> Any:
+    ax.set_xlabel(x.label)
+    ax.set_ylabel(y.label)
+    if title:
+        ax.set_title(title)
     ax.grid(True, color="#e8eaed")
     return ax
 
 
-def plot_event_curve(curve: EventCurve, x: str, y: str, ax: Any) -> Any:
-    across, up = curve[x], curve[y]
+def plot(
+    x: Column, y: Column, lines: Iterable[tuple[int, str, int, int]], events: Iterable[tuple[int, str]], title: str, ax: Any
+) -> Any:
+    """Draw the points of a path: lines by branch, stability, first and last point; events by point and kind."""
+    for column in (x, y):
+        if column.values.dtype == object:
+            raise TypeError(f"column {column.name!r} has no numbers to draw")
     ax = _axes(ax)
-    stability = [_stability_beside(*counts) for counts in zip(curve["unstable_before"], curve["unstable_after"])]
+    for branch, stability, first, last in lines:
+        _draw_line(ax, x, y, first, last, stability, COLOURS[branch % len(COLOURS)])
+    for point, kind in events:
+        _draw_mark(ax, x.values[point], y.values[point], MARKS[kind])
+    return _label(ax, x, y, title)
+
+
+def plot_event_curve(
+    x: Column, y: Column, unstable: Iterable[tuple[float, float]], specials: Iterable[tuple[int, str]], title: str, ax: Any
+) -> Any:
+    """Draw an event curve: numbers of unstable directions before and after each point; specials by point and kind."""
+    ax = _axes(ax)
+    stability = [_stability_beside(*counts) for counts in unstable]
     first = 0
-    for last in range(1, len(curve)):  # a line has the stability of its second point
-        if last + 1 == len(curve) or stability[last + 1] != stability[last]:
-            ax.plot(
-                across[first : last + 1], up[first : last + 1], _DASHES[stability[last]], color=COLOURS[0], linewidth=1.8
-            )
+    for last in range(1, len(stability)):  # a line has the stability of its second point
+        if last + 1 == len(stability) or stability[last + 1] != stability[last]:
+            _draw_line(ax, x, y, first, last, stability[last], COLOURS[0])
             first = last
-    for special in curve.specials:
-        _draw_mark(ax, across[special.point], up[special.point], _SPECIAL_MARKS[special.kind])
-    ax.set_xlabel(_with_unit(curve.parameter if x == "key" else _shown(x), curve.units[x]))
-    ax.set_ylabel(_with_unit(curve.parameter if y == "key" else _shown(y), curve.units[y]))
-    ax.set_title(f"{curve.event} {curve.number}")
-    ax.grid(True, color="#e8eaed")
-    return ax
+    for point, kind in specials:
+        _draw_mark(ax, x.values[point], y.values[point], _SPECIAL_MARKS[kind])
+    return _label(ax, x, y, title)
 
 
 # Stable if one side of the event is stable.
@@ -135,31 +133,25 @@ def _draw_contacts(ax: Any, shape: Shape) -> Any:
     return ax.plot(places[:, 0], places[:, 1], "o", color="#d55e00", ms=5, zorder=3)[0]
 
 
-def plot_shape(path: Path, point: int, ax: Any) -> Any:
-    shape = path.shape(point)
+def plot_shape(shape: Shape, first: Shape, unit: str, ax: Any) -> Any:
+    """Draw a shape, and the first one of its path in grey."""
     ax = _axes(ax)
     _draw_walls(ax, shape)
-    _draw_members(ax, path.shape(0), color="#c3c9d0", linewidth=1.2, linestyle="--")
+    _draw_members(ax, first, color="#c3c9d0", linewidth=1.2, linestyle="--")
     _draw_members(ax, shape, color=COLOURS[0], linewidth=2.2)
     _draw_contacts(ax, shape)
-    unit = path.units["length"]
     ax.set_xlabel(f"x [{unit}]" if unit else "x")
     ax.set_ylabel(f"z [{unit}]" if unit else "z")
     ax.set_title(f"λ = {shape.lam:.6g}")
     return ax
 
 
-def animate(path: Path, every: int, interval: int) -> Any:
+def animate(shapes: Sequence[Shape], unit: str, interval: int) -> Any:
+    """Make an animation of shapes, at least one."""
     from matplotlib.animation import FuncAnimation
 
-    if every < 1:
-        raise ValueError(f"every = {every} is no number of points; give 1 or more")
-    points = range(0, len(path), every)
-    if not len(points):
-        raise ValueError("a path without points cannot be drawn")
-    ax = plot_shape(path, 0, None)
+    ax = plot_shape(shapes[0], shapes[0], unit, None)
     figure = ax.figure
-    shapes = [path.shape(i) for i in points]
     all_x = np.concatenate([m.x for s in shapes for m in s.members.values()])
     all_z = np.concatenate([m.z for s in shapes for m in s.members.values()])
     ax.set_xlim(*_limits(all_x))

@@ -1,6 +1,7 @@
 """The package as a whole: stubs, types, what its module calls."""
 
 import ast
+import graphlib
 import os
 import subprocess
 import sys
@@ -53,3 +54,16 @@ def test_the_module_calls_nothing_that_changes_the_process():
 
 def test_the_version_is_that_of_the_program(program):
     assert program("--version").split() == ["trace-path", arcwall.__version__]
+
+
+def test_the_modules_import_each_other_in_no_circle():
+    imports = {}
+    for file in (SOURCE / "python/arcwall").glob("*.py"):
+        tree = ast.parse(file.read_text())
+        for node in ast.walk(tree):  # annotations alone need what type checkers import
+            if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+                node.body = [ast.Pass()]
+        of_package = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.level == 1]
+        imports[file.stem] = {name for node in of_package for name in ([node.module] if node.module else [a.name for a in node.names])}
+    assert "pictures" in imports["curves"]
+    graphlib.TopologicalSorter(imports).prepare()  # raises CycleError
