@@ -154,12 +154,19 @@ bool hold_all(deck::Deck deck, const LooseHolds& holds) {
 
 }  // namespace
 
-std::vector<deck::Spring> LooseHolds::springs(double times) const {
+LooseHolds LooseHolds::with_stiffness(double stiffest) const {
+  const double times = stiffest / stiffness();
+  LooseHolds scaled = *this;
+  for (Hold& hold : scaled.holds) hold.stiffness = {.x = times * hold.stiffness.x, .z = times * hold.stiffness.z};
+  return scaled;
+}
+
+std::vector<deck::Spring> LooseHolds::springs() const {
   std::vector<deck::Spring> springs(holds.size());
   for (std::size_t i = 0; i < holds.size(); ++i) {
     auto& spring = springs[i].kind.emplace<deck::GroundSpring>();
     spring.at = holds[i].at;
-    spring.stiffness = {.x = times * holds[i].stiffness.x, .z = times * holds[i].stiffness.z};
+    spring.stiffness = holds[i].stiffness;
   }
   return springs;
 }

@@ -16,6 +16,8 @@ namespace arcwall {
 /// equations to have one solution.
 struct LooseHolds {
   static constexpr double softness = 1e-7;  ///< beside what is softest; 1000 times as much in decks without loads
+  /// By so many times the structure's size bodies may move before they count as adrift: a wall may be that far.
+  static constexpr int farthest = 20;
 
   struct Hold {
     deck::Place at{};
@@ -28,8 +30,11 @@ struct LooseHolds {
   /// Of the stiffest spring [force/length].
   double stiffness() const;
 
-  /// As springs of a deck, `times` as stiff.
-  std::vector<deck::Spring> springs(double times = 1.0) const;
+  /// The same with springs of which the stiffest one is this stiff [force/length].
+  LooseHolds with_stiffness(double stiffest) const;
+
+  /// As springs of a deck.
+  std::vector<deck::Spring> springs() const;
 
   /// What the user should know of them.
   std::string warning(const deck::Deck& deck) const;

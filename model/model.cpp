@@ -32,9 +32,6 @@ bool moves_walls(const deck::Deck& deck) {
                      [](const deck::Wall& wall) { return !motion_of(wall).is_none(); });
 }
 
-// By so many times the structure's size loose bodies may move before they count as adrift: a wall may be that far.
-constexpr int farthest = 20;
-
 std::vector<std::string> names_of_walls(const deck::Deck& deck) {
   std::vector<std::string> names;
   for (const deck::Wall& wall : deck.walls) names.push_back(wall.name);
@@ -46,17 +43,31 @@ bool has_interference(const deck::Deck& deck) {
                      [](const deck::Wall& wall) { return wall.interference > 0.0; });
 }
 
-std::vector<Theory> theories_of(const deck::Deck& deck) {
-  std::vector<Theory> theories;
-  for (const deck::Member& member : deck.members) theories.push_back(member.theory);
-  return theories;
-}
-
 // Whether a grip holds a point in a stage: what acts on that point changes what the grip bears, if nothing else.
 bool has_grip(const deck::Deck& deck, std::size_t stage) {
   for (std::size_t i = 0; i < deck.prescribed.size(); ++i)
     if (const auto grips = gripping_stage(deck, i); grips && *grips <= stage) return true;
   return false;
+}
+
+deck::Deck with_holds(deck::Deck deck, const LooseHolds& holds) {
+  const std::vector<deck::Spring> springs = holds.springs();
+  deck.springs.insert(deck.springs.end(), springs.begin(), springs.end());
+  return deck;
+}
+
+std::vector<Index> nodes_of(const LooseHolds& holds, const StructureOfDeck& described, const Structure& structure) {
+  std::vector<Index> nodes;
+  for (const LooseHolds::Hold& hold : holds.holds)
+    nodes.push_back(described.places.find(hold.at, structure.members()).node);
+  return nodes;
+}
+
+// Of a deck whose problems are known.
+std::vector<Candidate> nodes_that_touch(const Assembly& assembly) {
+  if (assembly.deck->walls.empty() || assembly.deck->contact.is_compliant()) return {};
+  DeckProblems known(assembly.deck->source);
+  return contact_candidates(*assembly.deck, *assembly.structure, {}, known);
 }
 
 // What is looked for beside the path is looked for on the deck's mesh.
@@ -102,117 +113,115 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
     : whole_deck_(std::move(whole)),
       stage_(stage),
       progress_(progress ? std::move(*progress) : things_to_drive(*whole_deck_)),
-      deck_(in_frame(deck_of_stage(whole_deck_, static_cast<std::size_t>(stage), progress_), frame)) {
+      path_{.deck = in_frame(deck_of_stage(whole_deck_, static_cast<std::size_t>(stage), progress_), frame)} {
   DeckProblems problems(whole_deck_->source);
-  StructureOfDeck described = describe_structure(*deck_, problems);
+  StructureOfDeck described = describe_structure(deck(), problems);
   problems.raise();
   DeckProblems mechanism(whole_deck_->source);
-  check_mechanism(*deck_, mechanism);
+  check_mechanism(deck(), mechanism);
+  LooseHolds until_stiffened;  // of a mechanism that what is constant stiffens
   if (!mechanism.empty()) {
     if (hold_loose_bodies())
-      described = describe_structure(*deck_, problems);
+      described = describe_structure(deck(), problems);
     else
-      ramp_holds_ = holds_until_stiffened(*deck_);
-    if (ramp_holds_.empty()) check_mechanism(*deck_, problems);
+      until_stiffened = holds_until_stiffened(deck());
+    if (until_stiffened.empty()) check_mechanism(deck(), problems);
     problems.raise();
   }
-  hold_between_walls(*deck_, described.builder);
+  hold_between_walls(deck(), described.builder);
 
-  structure_ = described.builder.build();
-  const bool changes_a_grip = structure_->size({}) > 0 && has_grip(*whole_deck_, static_cast<std::size_t>(stage_));
-  if (!moves_something(*structure_) && !changes_a_grip && (structure_->size({}) == 0 || !moves_walls(*deck_)))
-    report_nothing_moves(*whole_deck_, static_cast<std::size_t>(stage_), structure_->size({}) == 0, problems);
-  if (takes_increments(*deck_, *structure_, problems))
-    incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
+  path_.structure = described.builder.build();
+  const bool changes_a_grip = structure().size({}) > 0 && has_grip(*whole_deck_, static_cast<std::size_t>(stage_));
+  if (!moves_something(structure()) && !changes_a_grip && (structure().size({}) == 0 || !moves_walls(deck())))
+    report_nothing_moves(*whole_deck_, static_cast<std::size_t>(stage_), structure().size({}) == 0, problems);
+  if (takes_increments(deck(), structure(), problems))
+    path_.increments = std::make_unique<IncrementalStructure>(structure());
   DeckProblems not_at_rest(whole_deck_->source);  // where a stage begins the structure is no longer there
-  if (may_slide(*deck_, described.builder)) sliding_structure_ = sliding_structure(described.builder, false);
-  const PinchedPlaces pinched = sliding_structure_ ? pinched_places(*deck_, *sliding_structure_) : PinchedPlaces{};
+  if (may_slide(deck(), described.builder))
+    path_.sliding_structure = described.builder.build_sliding(path_.is_ramp, may_join());
+  const PinchedPlaces pinched = sliding_structure() ? pinched_places(deck(), *sliding_structure()) : PinchedPlaces{};
   DeckProblems& at_rest = stage_ == 0 ? problems : not_at_rest;
-  check_compliant_walls(*deck_, *structure_, at_rest);
+  check_compliant_walls(deck(), structure(), at_rest);
   std::vector<Candidate> candidates;
-  if (!deck_->contact.is_compliant()) candidates = contact_candidates(*deck_, *structure_, pinched, at_rest);
-  const bool sliding = slides(*deck_, described.builder, candidates, problems);
-  if (stage_ == 0) check_friction(*deck_, *structure_, candidates, sliding, problems);
-  if (!sliding) sliding_structure_.reset();
-  if (!sliding) check_hollow_corners(*deck_, problems);
+  if (!deck().contact.is_compliant()) candidates = contact_candidates(deck(), structure(), pinched, at_rest);
+  const bool sliding = slides(deck(), described.builder, candidates, problems);
+  if (stage_ == 0) check_friction(deck(), structure(), candidates, sliding, problems);
+  if (!sliding) path_.sliding_structure.reset();
+  if (!sliding) check_hollow_corners(deck(), problems);
   std::vector<std::uint8_t> node_contacts;
-  if (!sliding) node_contacts = stand_for_members(*structure_, candidates);
-  if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
-  for (const LooseHolds::Hold& hold : loose_holds_.holds)
-    held_.push_back(described.places.find(hold.at, structure_->members()).node);
-  for (const LooseHolds::Hold& hold : ramp_holds_.holds)
-    held_in_ramp_.push_back(described.places.find(hold.at, structure_->members()).node);
-  if (sliding_ && stage_ == 0 && problems.empty())
-    check_between_nodes(*deck_, sliding_ramp_ ? *sliding_ramp_ : *sliding_, problems);
-  body_ = sliding ? body_of(*structure_, *sliding_structure_)
-                  : body_of(*structure_, theories_of(*deck_), incremental_structure_.get());
-  make_kinks();
-  const Measured read_off{.structure = *structure_,
-                          .body = *body_,
+  if (!sliding) node_contacts = stand_for_members(structure(), candidates);
+  path_.held = nodes_of(path_.holds, described, structure());
+  if (problems.empty()) path_.add_contact(std::move(candidates), scales_of_contact(), path_.holds.stiffness());
+  path_.add_body();
+  if (problems.empty() && has_ramp()) ramp_ = make_ramp(described, until_stiffened);
+  if (sliding && stage_ == 0 && problems.empty())
+    check_between_nodes(deck(), ramp_ ? *ramp_->sliding : *path_.sliding, problems);
+  const Measured read_off{.structure = structure(),
+                          .body = body(),
                           .places = described.places,
                           .contacts = contacts(),
-                          .rigid_walls = contact_ ? names_of_walls(*deck_) : std::vector<std::string>{},
-                          .kinked = kinked_.get()};
-  monitors_ = monitor_columns(*deck_, read_off, problems);
-  structure_->nodal_terms().for_each_moved_support(
+                          .rigid_walls = contact() ? names_of_walls(deck()) : std::vector<std::string>{},
+                          .kinked = path_.kinked.get()};
+  monitors_ = monitor_columns(deck(), read_off, problems);
+  structure().nodal_terms().for_each_moved_support(
       [&](Index dof, double rate) { moved_.push_back({.rate = rate, .reaction = support_reaction(read_off, dof)}); });
   for (const std::size_t next : grips_of(*whole_deck_, static_cast<std::size_t>(stage_) + 1)) {
     const std::string& point = whole_deck_->prescribed[next].point;
     const Index node = described.places.joints.at(point);
     const auto rotation = described.places.rotations.find(point);
     gripped_next_.push_back(
-        {.x = body_->motion(structure_->dof(node, Dof::x)),
-         .z = body_->motion(structure_->dof(node, Dof::z)),
-         .rotation = rotation == described.places.rotations.end() ? nullptr : body_->motion(rotation->second)});
+        {.x = body().motion(structure().dof(node, Dof::x)),
+         .z = body().motion(structure().dof(node, Dof::z)),
+         .rotation = rotation == described.places.rotations.end() ? nullptr : body().motion(rotation->second)});
   }
-  options_ = trace_options(*deck_, read_off, monitors_, problems);
+  options_ = trace_options(deck(), read_off, monitors_, problems);
   options_.node_contacts = std::move(node_contacts);
-  check_watched(*deck_, problems);
+  check_watched(deck(), problems);
   if (problems.empty()) check_search(*this, problems);
   if (stage_ == 0) check_sensitivity(*whole_deck_, problems);
   if (stage_ == 0) check_curve(*whole_deck_, problems);
   problems.raise();
-  if (!loose_holds_.empty()) {
-    options_.lambda_scale = lambda_scale_if_held(*deck_, false);
+  if (is_loose()) {
+    options_.lambda_scale = lambda_scale_if_held(path_);
     options_.corner.max_enumerated = 0;
   }
 
-  if (contact_ && stage_ == 0) {
-    std::vector<std::string> told = interference_warnings(*deck_, *contact_, sliding_.get());
+  if (contact() && stage_ == 0) {
+    std::vector<std::string> told = interference_warnings(deck(), *contact(), path_.sliding.get());
     std::move(told.begin(), told.end(), std::back_inserter(warnings_));
   }
-  if (contact_) {
-    const ContactScales& scales = sliding_ ? sliding_->scales() : contact_->scales();
+  if (contact()) {
+    const ContactScales& scales = sliding ? path_.sliding->scales() : contact()->scales();
     options_.mesh_error_of_forces = mesh_error_of_forces(scales);
   }
-  for (const std::string& name : deck_->path.watch) {
+  for (const std::string& name : deck().path.watch) {
     const MonitorColumn& column = *deck::find(monitors_, name);
-    watched_.push_back({.quantity = column.quantity, .label = name, .kind = kind_of(column, *deck_)});
+    watched_.push_back({.quantity = column.quantity, .label = name, .kind = kind_of(column, deck())});
   }
-  explore_.policy = deck_->path.branches;
-  explore_.depth = deck_->path.depth;
+  explore_.policy = deck().path.branches;
+  explore_.depth = deck().path.depth;
   for (const MonitorColumn& monitor : monitors_)
     if (!monitor.is_place) explore_.preference.push_back(monitor.raw);
   if (stage_ == 0)
-    for (const deck::Spring& spring : deck_->springs) {
+    for (const deck::Spring& spring : deck().springs) {
       if (std::string warning = smoothed_law(spring, frame.factor()); !warning.empty())
         warnings_.push_back(std::move(warning));
-      if (loose_holds_.empty()) continue;
-      if (std::string warning = flat_law(spring, deck_->units); !warning.empty())
+      if (!is_loose()) continue;
+      if (std::string warning = flat_law(spring, deck().units); !warning.empty())
         warnings_.push_back(std::move(warning));
     }
-  if (is_unbounded(deck_->path))
+  if (is_unbounded(deck().path))
     warnings_.push_back("no bound in [path.stop] ends the path: it continues to path.max_points = " +
-                        std::to_string(deck_->path.max_points) +
+                        std::to_string(deck().path.max_points) +
                         ", the default, whatever λ is then; give bounds, as stop = { lambda = [-1.0, 10.0] }");
-  if (deck_->path.events != EventSearch::locate && explore_.policy != BranchPolicy::primary &&
-      !wants_increments(*deck_))
-    warnings_.push_back("events = \"" + deck::text_of(deck::events_words, deck_->path.events) +
+  if (deck().path.events != EventSearch::locate && explore_.policy != BranchPolicy::primary &&
+      !wants_increments(deck()))
+    warnings_.push_back("events = \"" + deck::text_of(deck::events_words, deck().path.events) +
                         "\" locates no bifurcations, so branches = \"" +
                         deck::text_of(deck::branches_words, explore_.policy) +
                         "\" has no effect and the run stays on its first branch; leave out events, or write branches = "
                         "\"primary\"");
-  if (const std::string warning = start_outside_bounds(deck_->path); !warning.empty() && !wants_increments(*deck_))
+  if (const std::string warning = start_outside_bounds(deck().path); !warning.empty() && !wants_increments(deck()))
     warnings_.push_back(warning);
 }
 
@@ -224,21 +233,18 @@ std::shared_ptr<const Observable> Model::quantity(const std::string& name) const
 
 // Springs for what nothing but contact holds are part of the deck that is traced.
 bool Model::hold_loose_bodies() {
-  loose_holds_ = loose_holds(*deck_);
-  const std::vector<deck::Spring> springs = loose_holds_.springs();
-  deck::Deck held = *deck_;
-  held.springs.insert(held.springs.end(), springs.begin(), springs.end());
-  deck_ = std::make_shared<const deck::Deck>(std::move(held));
-  if (!loose_holds_.empty()) warnings_.push_back(loose_holds_.warning(*deck_));
-  return !loose_holds_.empty();
+  path_.holds = loose_holds(deck());
+  if (!is_loose()) return false;
+  path_.deck = std::make_shared<const deck::Deck>(with_holds(deck(), path_.holds));
+  warnings_.push_back(path_.holds.warning(deck()));
+  return true;
 }
 
-// The deck's structure with springs, so many times as stiff, in place of those that hold loose bodies.
-StructureOfDeck Model::described_if_held(const LooseHolds& holds, double times) const {
-  deck::Deck held = *deck_;
-  held.springs.resize(held.springs.size() - loose_holds_.holds.size());
-  const std::vector<deck::Spring> springs = holds.springs(times);
-  held.springs.insert(held.springs.end(), springs.begin(), springs.end());
+// The deck's structure with other springs in place of those that hold loose bodies.
+StructureOfDeck Model::described_with(const LooseHolds& holds) const {
+  deck::Deck held = deck();
+  held.springs.resize(held.springs.size() - path_.holds.holds.size());
+  held = with_holds(std::move(held), holds);
   DeckProblems known(held.source);
   StructureOfDeck described = describe_structure(held, known);
   hold_between_walls(held, described.builder);
@@ -246,46 +252,42 @@ StructureOfDeck Model::described_if_held(const LooseHolds& holds, double times) 
 }
 
 // The structure with springs as stiff as its members in place of those that hold loose bodies.
-std::unique_ptr<Structure> Model::held_structure(bool ramp) const {
-  const double times = softest_stiffness(*deck_, *structure_) / loose_holds_.stiffness();
-  return described_if_held(loose_holds_, times).builder.build(ramp);
+std::unique_ptr<Structure> Model::stiffly_held(const Assembly& of) const {
+  return described_with(path_.holds.with_stiffness(softest_stiffness(deck(), structure()))).builder.build(of.is_ramp);
 }
 
 // While constant loads grow the springs of loose bodies may bear a small part of them: which way the bodies go to their
 // rest is then no matter of round-off in the members' axial forces.
 double Model::stiffness_of_ramp_holds() const {
   constexpr double borne = 1e-4;  // of the resultant of constant loads, by springs that give by the structure's size
-  if (loose_holds_.empty()) return 0.0;
-  return std::max(loose_holds_.stiffness(), borne * constant_resultant(*deck_).norm() / structure_->length_scale());
+  if (!is_loose()) return 0.0;
+  return std::max(path_.holds.stiffness(), borne * constant_resultant(deck()).norm() / structure().length_scale());
 }
 
 // A loose body moves by any amount under hardly any load before it meets something: the λ that would deform it counts.
-double Model::lambda_scale_if_held(const deck::Deck& deck, bool ramp) const {
-  const auto held = held_structure(ramp);
+double Model::lambda_scale_if_held(const Assembly& of) const {
+  Assembly stiff{.deck = of.deck, .structure = stiffly_held(of)};
+  stiff.add_contact(nodes_that_touch(stiff), scales_of_contact(), 0.0);
   TraceOptions options = options_;
   options.lambda_scale.reset();
-  const auto scale_of = [&](const System& system) {
-    const ActiveSet open = system.open_active_set();
-    return Tracer(system, {.state = {.x = Vector::Zero(system.size(open)), .lambda = 0.0, .active_set = open}}, options)
-        .lambda_scale();
-  };
-  if (deck.contact.is_compliant()) return scale_of(*compliant_contact(deck, *held));
-  DeckProblems known(deck.source);
-  return scale_of(MultiplierContact(*held, contact_candidates(deck, *held, {}, known), contact_->scales()));
+  const System& system = stiff.system();
+  const ActiveSet open = system.open_active_set();
+  return Tracer(system, {.state = {.x = Vector::Zero(system.size(open)), .lambda = 0.0, .active_set = open}}, options)
+      .lambda_scale();
 }
 
 // Whether the structure resists by itself, where a mechanism was held, more than the springs did.
 bool Model::is_stiffened(const State& state) const {
-  if (ramp_holds_.empty()) return true;
+  if (is_loose() || ramp_->holds.empty()) return true;
   Linearization now;
   BorderedSolver solver;
   system().linearize(state, now);
   if (solver.factorize(now, system().multiplier_count(state.active_set)) != FactorStatus::ok) return false;
-  for (std::size_t i = 0; i < held_in_ramp_.size(); ++i)
+  for (std::size_t i = 0; i < ramp_->held.size(); ++i)
     for (const Dof direction : {Dof::x, Dof::z}) {
-      const deck::Stiffness& springs = ramp_holds_.holds[i].stiffness;
+      const deck::Stiffness& springs = ramp_->holds.holds[i].stiffness;
       const double stiffness = direction == Dof::x ? springs.x : springs.z;
-      const Vector unit = body_->motion(structure_->dof(held_in_ramp_[i], direction))->gradient(state).dx;
+      const Vector unit = body().motion(structure().dof(ramp_->held[i], direction))->gradient(state).dx;
       Matrix moved = unit;
       if (!solver.solve_inner(moved) || !(stiffness * std::abs(unit.dot(moved.col(0))) < 1.0)) return false;
     }
@@ -293,158 +295,109 @@ bool Model::is_stiffened(const State& state) const {
 }
 
 std::optional<std::string> Model::adrift(const State& state) const {
-  for (std::size_t i = 0; i < held_.size(); ++i) {
+  for (std::size_t i = 0; i < path_.held.size(); ++i) {
     double squared = 0.0;
     for (const Dof direction : {Dof::x, Dof::z})
-      squared += std::pow(body_->motion(structure_->dof(held_[i], direction))->value(state), 2.0);
-    if (squared <= std::pow(farthest * structure_->length_scale(), 2.0)) continue;
-    return "neither supports nor contact hold the body at \"" + to_text(loose_holds_.holds[i].at) +
-           "\", which has moved by more than " + std::to_string(farthest) + " times the size of the structure";
+      squared += std::pow(body().motion(structure().dof(path_.held[i], direction))->value(state), 2.0);
+    if (squared <= std::pow(LooseHolds::farthest * structure().length_scale(), 2.0)) continue;
+    return "neither supports nor contact hold the body at \"" + to_text(path_.holds.holds[i].at) +
+           "\", which has moved by more than " + std::to_string(LooseHolds::farthest) +
+           " times the size of the structure";
   }
   return std::nullopt;
 }
 
-void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding) {
+bool Model::has_ramp() const {
   const auto constant = [](const auto& driven) { return driven.constant; };
-  const bool ramp =
-      stage_ == 0 && (std::any_of(whole_deck_->loads.begin(), whole_deck_->loads.end(), constant) ||
-                      std::any_of(whole_deck_->prescribed.begin(), whole_deck_->prescribed.end(), constant) ||
-                      has_interference(*deck_));
-  const StructureBuilder of_ramp = [&] {
-    if (!ramp) return builder;
-    if (!ramp_holds_.empty()) return described_if_held(ramp_holds_, 1.0).builder;
-    if (loose_holds_.empty()) return builder;
-    return described_if_held(loose_holds_, stiffness_of_ramp_holds() / loose_holds_.stiffness()).builder;
-  }();
-  if (ramp) ramp_structure_ = of_ramp.build(true);
-  if (deck_->contact.is_compliant() && !deck_->walls.empty()) {
-    compliant_ = compliant_contact(*deck_, *structure_);
-    if (ramp) ramp_compliant_ = compliant_contact(with_walls_of_ramp(*deck_, *structure_), *ramp_structure_);
-  } else if (!deck_->walls.empty()) {
-    const auto held = loose_holds_.empty() ? nullptr : held_structure(false);
-    const ContactScales scales = contact_scales(*deck_, *structure_, held ? *held : *structure_, deck_->path.step);
-    const System& inner = incremental_structure_ ? static_cast<const System&>(*incremental_structure_) : *structure_;
-    const ContactLaw law{.method = deck_->contact.method, .stiffness = deck_->contact.penalty.value_or(0.0)};
-    contact_ = std::make_unique<MultiplierContact>(inner, std::move(candidates), scales, law);
-    DeckProblems known(deck_->source);  // those of the structure itself
-    if (ramp)
-      ramp_contact_ = std::make_unique<MultiplierContact>(
-          *ramp_structure_, contact_candidates(with_walls_of_ramp(*deck_, *structure_), *ramp_structure_, {}, known),
-          scales, law);
-    if (!sliding) return;
-    const auto on = [&](const SlidingStructure& structure, const deck::Deck& deck, double stiffness_of_holds) {
-      ContactScales of_body = scales;
-      of_body.slack = stiffness_of_holds * farthest * structure_->length_scale();
-      return std::make_unique<SlidingContact>(structure, sliding_obstacles(deck, structure), of_body,
-                                              deck.path.equilibrium_family);
-    };
-    sliding_ = on(*sliding_structure_, *deck_, loose_holds_.stiffness());
-    if (!ramp) return;
-    sliding_ramp_structure_ = sliding_structure(of_ramp, true);
-    sliding_ramp_ = on(*sliding_ramp_structure_, with_walls_of_ramp(*deck_, *structure_), stiffness_of_ramp_holds());
-  }
+  return stage_ == 0 && (std::any_of(whole_deck_->loads.begin(), whole_deck_->loads.end(), constant) ||
+                         std::any_of(whole_deck_->prescribed.begin(), whole_deck_->prescribed.end(), constant) ||
+                         has_interference(deck()));
 }
 
-std::unique_ptr<CompliantContact> Model::compliant_contact(const deck::Deck& deck, const Structure& structure) const {
-  std::vector<CompliantContact::Wall> walls;
-  for (CompliantWallOfMember& wall : compliant_walls(
-           deck, [&](Index m) -> const MemberMesh& { return structure.members()[static_cast<std::size_t>(m)]; }))
-    walls.push_back(std::move(wall.contact));
-  return std::make_unique<CompliantContact>(structure, std::move(walls), structure_->length_scale());
+// The path's structure and contacts while what is constant grows.
+Assembly Model::make_ramp(const StructureOfDeck& described, const LooseHolds& until_stiffened) const {
+  Assembly ramp{.deck = std::make_shared<const deck::Deck>(with_walls_of_ramp(deck(), structure())),
+                .is_ramp = true,
+                .holds = is_loose() ? path_.holds.with_stiffness(stiffness_of_ramp_holds()) : until_stiffened};
+  ramp.held = nodes_of(ramp.holds, described, structure());
+  const StructureBuilder builder = ramp.holds.empty() ? described.builder : described_with(ramp.holds).builder;
+  ramp.structure = builder.build(ramp.is_ramp);
+  if (sliding_structure()) ramp.sliding_structure = builder.build_sliding(ramp.is_ramp, may_join());
+  ramp.add_contact(nodes_that_touch(ramp), scales_of_contact(), stiffness_of_ramp_holds());
+  ramp.add_body();
+  return ramp;
 }
 
-// The strands of the ramp are those of the path, on which λ may load two members differently that what is constant
-// loads alike.
-std::unique_ptr<SlidingStructure> Model::sliding_structure(const StructureBuilder& builder, bool ramp) const {
+// Of the path, and of what is derived from it.
+ContactScales Model::scales_of_contact() const {
+  if (contact()) return contact()->scales();
+  if (deck().walls.empty() || deck().contact.is_compliant()) return {};
+  const auto held = is_loose() ? stiffly_held(path_) : nullptr;
+  return contact_scales(deck(), structure(), held ? *held : structure(), deck().path.step);
+}
+
+// Whether members may be one strand. The strands of the ramp are those of the path, which is built first: λ may load
+// two members differently that what is constant loads alike.
+std::function<bool(const std::string&, const std::string&)> Model::may_join() const {
   const auto strands_at_ends = [this](const std::string& member) {
     constexpr double inside = 1e-9;  // fraction
-    return std::array{sliding_structure_->find(member, inside).strand,
-                      sliding_structure_->find(member, 1.0 - inside).strand};
+    return std::array{sliding_structure()->find(member, inside).strand,
+                      sliding_structure()->find(member, 1.0 - inside).strand};
   };
-  const auto are_joined = [&](const std::string& a, const std::string& b) {
+  const auto are_joined = [=](const std::string& a, const std::string& b) {
     const auto of_a = strands_at_ends(a), of_b = strands_at_ends(b);
     return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
   };
-  return builder.build_sliding(ramp, [&](const std::string& a, const std::string& b) {
-    return same_walls(*deck_, a, b) && !is_driven_apart(*whole_deck_, a) && !is_driven_apart(*whole_deck_, b) &&
-           (!ramp || are_joined(a, b));
-  });
-}
-
-// What is traced, with the pieces that laws of springs consist of.
-void Model::make_kinks() {
-  const auto& springs = structure_->nodal_terms().law_springs();
-  const auto has_kinks = [](const NodalTerms::LawSpring& spring) { return !spring.law->kinks().empty(); };
-  if (incremental_structure_ || std::none_of(springs.begin(), springs.end(), has_kinks)) return;
-  const auto on = [&](const System& inner, const Body& body) {
-    std::vector<KinkedSprings::Spring> kinked;
-    for (const NodalTerms::LawSpring& spring : springs)
-      kinked.push_back({.law = spring.law,
-                        .first = spring.first ? body.motion(*spring.first) : nullptr,
-                        .second = body.motion(spring.second)});
-    return std::make_unique<KinkedSprings>(inner, kinked);
+  return [=, this](const std::string& a, const std::string& b) {
+    return same_walls(deck(), a, b) && !is_driven_apart(*whole_deck_, a) && !is_driven_apart(*whole_deck_, b) &&
+           (!sliding_structure() || are_joined(a, b));
   };
-  kinked_ = on(system(), *body_);
-  if (!ramp_structure_) return;
-  ramp_body_ = sliding_ramp_ ? body_of(*ramp_structure_, *sliding_ramp_structure_)
-                             : body_of(*ramp_structure_, theories_of(*deck_), nullptr);
-  kinked_ramp_ = on(*ramp_system(), *ramp_body_);
-}
-
-// What grows while constant loads do, but for the pieces of laws.
-const System* Model::ramp_system() const {
-  if (sliding_ramp_) return sliding_ramp_.get();
-  if (ramp_contact_) return ramp_contact_.get();
-  if (ramp_compliant_) return ramp_compliant_.get();
-  return ramp_structure_.get();
-}
-
-const System& Model::system() const {
-  if (kinked_) return *kinked_;
-  if (sliding_) return *sliding_;
-  if (contact_) return *contact_;
-  if (compliant_) return *compliant_;
-  if (incremental_structure_) return *incremental_structure_;
-  return *structure_;
 }
 
 LoadIncrements Model::increments(State start) {
   const double scale = Tracer(system(), start, options_).lambda_scale();
-  const Index n = structure_->size({});
+  const Index n = structure().size({});
   const auto advance = [this, n](const State& state) {
-    incremental_structure_->advance({.x = state.x.head(n), .lambda = state.lambda});
+    path_.increments->advance({.x = state.x.head(n), .lambda = state.lambda});
   };
   return {system(), std::move(start), scale, advance, options_.factorization};
 }
 
 std::optional<State> Model::start(std::string& reason) const {
-  State state{.x = {}, .lambda = 0.0, .active_set = {}};
-  if (contact_) state.active_set = contact_->open_active_set();
-  state.x = Vector::Zero(contact_ ? contact_->size(state.active_set) : structure_->size({}));
-  if (compliant_) state.active_set = compliant_->touched_at(state);
-  if (sliding_) state = sliding_->start(deck_->path.step);
-  if (!ramp_structure_) return with_kinks(std::move(state));
-  // What is constant grows from nothing along a path of their own, contacts included.
+  if (!ramp_) return path_.start(deck().path.step);
+  std::optional<State> state = grown(reason);
+  if (!state) return std::nullopt;
+  if (sliding()) {
+    state->lambda = deck().path.step;
+    reason = sliding()->why_not_lying(sliding()->adopted(*state));
+    if (!reason.empty()) return std::nullopt;
+  }
+  state->lambda = 0.0;
+  State begun = begun_from(*state);
+  if (is_stiffened(begun)) return begun;
+  reason =
+      "the structure is a mechanism, which can move without strain, and the constant loads and movements do not "
+      "stiffen it";
+  return std::nullopt;
+}
+
+// What is constant grows from nothing along a path of its own, contacts included. The state is the ramp's.
+std::optional<State> Model::grown(std::string& reason) const {
   TraceOptions options;
   options.step.first = 0.1;
   options.mesh_error_of_forces = options_.mesh_error_of_forces;
   options.target_values.push_back(
       {.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true, .label = "all"});
-  if (!loose_holds_.empty()) {
-    options.lambda_scale = lambda_scale_if_held(with_walls_of_ramp(*deck_, *structure_), true);
+  if (is_loose()) {
+    options.lambda_scale = lambda_scale_if_held(*ramp_);
     options.corner.max_enumerated = 0;
-  }
-  const System* ramp = ramp_system();
-  if (sliding_ramp_) state = sliding_ramp_->start(1.0);
-  if (kinked_ramp_) {
-    ramp = kinked_ramp_.get();
-    state = kinked_ramp_->with_kinks(std::move(state));
   }
   constexpr int most_laid = 20;  // so often: what is laid down may peel off again
   int laid = 0;
   constexpr double far_back = -1.0;  // of their value: a path that has turned back by so much does not return
   double most = 0.0;
-  std::optional<Tracer> tracer(std::in_place, *ramp, state, options);
+  State state = ramp_->start(1.0);
+  std::optional<Tracer> tracer(std::in_place, ramp_->system(), state, options);
   while (const auto arc = tracer->next()) {
     state = arc->to.state;
     most = std::max(most, state.lambda);
@@ -455,41 +408,28 @@ std::optional<State> Model::start(std::string& reason) const {
     }
     // A loose body that comes down flush on a wall touches it all along at once, which no event of a path is: it is
     // laid down, and the ramp goes on from there.
-    const bool falls = sliding_ramp_ && !loose_holds_.empty() && state.lambda != 1.0 && laid < most_laid;
-    auto lying = falls ? sliding_ramp_->with_strands_come_to_lie(state, 1.0) : std::nullopt;
+    const bool falls = ramp_->sliding && is_loose() && state.lambda != 1.0 && laid < most_laid;
+    auto lying = falls ? ramp_->sliding->with_strands_come_to_lie(state, 1.0) : std::nullopt;
     if (!lying) continue;
     lying->active_set = lying->active_set.with_kinks_of(state.active_set);
-    tracer.emplace(*ramp, std::move(*lying), options);
+    tracer.emplace(ramp_->system(), std::move(*lying), options);
     ++laid;
   }
-  if (!tracer->end() || tracer->end()->reason != EndReason::stop) {
-    const bool turns_back = state.lambda < most;
-    reason = "the constant loads and movements find no equilibrium: their growth";
-    if (turns_back)
-      reason += fmt::format(" turns back at about {:.2g} of their value, where the structure buckles or snaps", most);
-    if (tracer->end())
-      reason += fmt::format("{} ends at {:.4g} of {} ({})", turns_back ? ", and" : "", state.lambda,
-                            turns_back ? "it" : "their value", tracer->end()->detail);
-    return std::nullopt;
-  }
-  if (sliding_) {
-    state.lambda = deck_->path.step;
-    reason = sliding_->why_not_lying(sliding_->adopted(state));
-  }
-  state.lambda = 0.0;
-  if (!reason.empty()) return std::nullopt;
-  State begun = begun_from(state);
-  if (is_stiffened(begun)) return begun;
-  reason =
-      "the structure is a mechanism, which can move without strain, and the constant loads and movements do not "
-      "stiffen it";
+  if (tracer->end() && tracer->end()->reason == EndReason::stop) return state;
+  const bool turns_back = state.lambda < most;
+  reason = "the constant loads and movements find no equilibrium: their growth";
+  if (turns_back)
+    reason += fmt::format(" turns back at about {:.2g} of their value, where the structure buckles or snaps", most);
+  if (tracer->end())
+    reason += fmt::format("{} ends at {:.4g} of {} ({})", turns_back ? ", and" : "", state.lambda,
+                          turns_back ? "it" : "their value", tracer->end()->detail);
   return std::nullopt;
 }
 
 // λ goes from 0 on in the direction of the first step.
 State Model::begun_from(const State& state) const {
-  if (!sliding_) return state;
-  State begun = sliding_->with_flat_parts_loaded(sliding_->adopted(state), deck_->path.step);
+  if (!sliding()) return state;
+  State begun = sliding()->with_flat_parts_loaded(sliding()->adopted(state), deck().path.step);
   begun.active_set = begun.active_set.with_kinks_of(state.active_set);
   return begun;
 }
@@ -502,10 +442,10 @@ State Model::taken_over(const State& last, const Model& before) const {
 
 // The unknowns of the stage before, but for those that this stage holds where they are.
 State Model::gripped(const State& state, const Model& before) const {
-  if (sliding_) return sliding_->gripped(*before.sliding_, state);
-  Vector x(structure_->size({}));
-  for (Index i = 0; i < x.size(); ++i) x[i] = before.structure_->value(state, structure_->dof_of_unknown(i));
-  if (contact_) return contact_->gripped(*before.contact_, state, x);
+  if (sliding()) return sliding()->gripped(*before.sliding(), state);
+  Vector x(structure().size({}));
+  for (Index i = 0; i < x.size(); ++i) x[i] = before.structure().value(state, structure().dof_of_unknown(i));
+  if (contact()) return contact()->gripped(*before.contact(), state, x);
   return {.x = std::move(x), .lambda = state.lambda, .active_set = state.active_set};
 }
 
@@ -527,15 +467,9 @@ std::optional<Index> Model::unstable_under_dead_load(const PathPoint& point) con
   return *point.count.unstable + (rate * point.tangent.dlambda < 0.0 ? 1 : 0);
 }
 
-const ContactQuery* Model::contacts() const {
-  if (sliding_) return sliding_.get();
-  if (compliant_) return compliant_.get();
-  return contact_.get();
-}
-
 // A pinch is one contact of the active set and two of the user.
 Index Model::closed_contacts(const State& state) const {
-  const std::size_t pinches = sliding_ ? sliding_layout(state.active_set).pinched_points().size() : 0;
+  const std::size_t pinches = sliding() ? sliding_layout(state.active_set).pinched_points().size() : 0;
   return state.active_set.closed_count() + static_cast<Index>(pinches);
 }
 

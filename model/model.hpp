@@ -1,22 +1,16 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "contact/multiplier_contact.hpp"
-#include "contact/sliding_contact.hpp"
 #include "continuation/explorer.hpp"
 #include "continuation/load_increments.hpp"
 #include "continuation/path_point.hpp"
-#include "elements/incremental_structure.hpp"
-#include "elements/kinked_springs.hpp"
-#include "elements/sliding_structure.hpp"
-#include "model/body.hpp"
-#include "model/compliant_contact.hpp"
+#include "model/assembly.hpp"
 #include "model/deck/deck.hpp"
-#include "model/loose_bodies.hpp"
 #include "model/stages.hpp"
 
 namespace arcwall {
@@ -44,13 +38,13 @@ class Model {
 
   /// Returns the traced deck in the coordinates of frame(): of a deck with stages, that of this model's stage. States,
   /// structure(), system() and body() are in this frame; monitors and a Record are in the user's coordinates.
-  const deck::Deck& deck() const { return *deck_; }
+  const deck::Deck& deck() const { return *path_.deck; }
 
   /// Returns the coordinates in which the model computes.
-  const deck::Frame& frame() const { return deck_->frame; }
+  const deck::Frame& frame() const { return deck().frame; }
 
   /// Returns the size of the structure in the user's unit [length].
-  double size() const { return frame().factor() * structure_->length_scale(); }
+  double size() const { return frame().factor() * structure().length_scale(); }
 
   /// Returns the total potential energy in the user's unit [force·length].
   double energy(const State& state) const { return frame().factor() * system().energy(state); }
@@ -77,37 +71,37 @@ class Model {
   std::string stage_name() const {
     return whole_deck_->stages.empty() ? "" : whole_deck_->stages[static_cast<std::size_t>(stage_)].name;
   }
-  const Structure& structure() const { return *structure_; }
+  const Structure& structure() const { return *path_.structure; }
 
   /// Returns the contact of the mesh nodes; null if the deck has no walls, or compliant ones.
-  const MultiplierContact* contact() const { return contact_.get(); }
+  const MultiplierContact* contact() const { return path_.contact.get(); }
 
   /// Returns the contact of compliant walls; null if they are not.
-  const CompliantContact* compliant() const { return compliant_.get(); }
+  const CompliantContact* compliant() const { return path_.compliant.get(); }
 
   /// Returns contact with moving points; null for node contact.
-  const SlidingContact* sliding() const { return sliding_.get(); }
+  const SlidingContact* sliding() const { return path_.sliding.get(); }
 
   /// Returns the state with the kink statuses of spring laws; computes missing ones from the elongations.
-  State with_kinks(State state) const { return kinked_ ? kinked_->with_kinks(std::move(state)) : state; }
+  State with_kinks(State state) const { return path_.with_kinks(std::move(state)); }
 
   /// Returns the structure with moving mesh nodes; null for node contact.
-  const SlidingStructure* sliding_structure() const { return sliding_structure_.get(); }
+  const SlidingStructure* sliding_structure() const { return path_.sliding_structure.get(); }
 
   /// Returns the view of the structure that is independent of its mesh.
-  const Body& body() const { return *body_; }
+  const Body& body() const { return *path_.body; }
 
   /// Returns the traced system: the structure with its contacts.
-  const System& system() const;
+  const System& system() const { return path_.system(); }
 
   /// Returns true if the deck requests load increments instead of path following.
-  bool in_increments() const { return incremental_structure_ != nullptr; }
+  bool in_increments() const { return path_.increments != nullptr; }
 
   /// Returns load increments from a start. They change the model's reference configuration: use them for one run only.
   LoadIncrements increments(State start);
 
   /// Returns the query of a state's contacts, of either kind; null if the deck has no walls.
-  const ContactQuery* contacts() const;
+  const ContactQuery* contacts() const { return path_.contacts(); }
 
   const std::vector<MonitorColumn>& monitors() const { return monitors_; }
 
@@ -132,7 +126,7 @@ class Model {
   State taken_over(const State& last, const Model& before) const;
 
   /// Returns true if supports leave the structure rigid-body motions, which contact alone restrains.
-  bool is_loose() const { return !loose_holds_.empty(); }
+  bool is_loose() const { return !path_.holds.empty(); }
 
   /// Returns the message if a body without supports has moved away from its contacts; else empty.
   std::optional<std::string> adrift(const State& state) const;
@@ -143,40 +137,28 @@ class Model {
  private:
   State begun_from(const State& state) const;
   State gripped(const State& state, const Model& before) const;
-  void make_kinks();
   // `progress`: of what λ drives, before the stage; empty where nothing has gone before it.
   Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, Index stage,
         std::optional<std::vector<DrivenThing>> progress);
   bool hold_loose_bodies();
-  StructureOfDeck described_if_held(const LooseHolds& holds, double times) const;
+  bool has_ramp() const;
+  Assembly make_ramp(const StructureOfDeck& described, const LooseHolds& until_stiffened) const;
+  StructureOfDeck described_with(const LooseHolds& holds) const;
   bool is_stiffened(const State& state) const;
-  std::unique_ptr<Structure> held_structure(bool ramp) const;
+  std::unique_ptr<Structure> stiffly_held(const Assembly& of) const;
   double stiffness_of_ramp_holds() const;
-  double lambda_scale_if_held(const deck::Deck& deck, bool ramp) const;
-  std::unique_ptr<SlidingStructure> sliding_structure(const StructureBuilder& builder, bool ramp) const;
-  std::unique_ptr<CompliantContact> compliant_contact(const deck::Deck& deck, const Structure& structure) const;
-  const System* ramp_system() const;
-  // Also the structure under what is constant alone.
-  void make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding);
+  double lambda_scale_if_held(const Assembly& of) const;
+  std::function<bool(const std::string&, const std::string&)> may_join() const;
+  ContactScales scales_of_contact() const;
+  std::optional<State> grown(std::string& reason) const;
 
   std::shared_ptr<const deck::Deck> whole_deck_;
   Index stage_ = 0;
   std::vector<DrivenThing> progress_;  // before this stage
   std::vector<std::unique_ptr<Model>> later_;
   std::vector<StageEnd> ended_stages_;
-  std::shared_ptr<const deck::Deck> deck_;  // of the stage
-  LooseHolds loose_holds_;
-  LooseHolds ramp_holds_;                   // of a mechanism, until what is constant stiffens it
-  std::vector<Index> held_, held_in_ramp_;  // nodes of their points
-  std::unique_ptr<Structure> structure_, ramp_structure_;
-  std::unique_ptr<IncrementalStructure> incremental_structure_;
-  std::unique_ptr<MultiplierContact> contact_, ramp_contact_;
-  std::unique_ptr<CompliantContact> compliant_, ramp_compliant_;
-  std::unique_ptr<SlidingStructure> sliding_structure_, sliding_ramp_structure_;
-  std::unique_ptr<SlidingContact> sliding_, sliding_ramp_;
-  std::unique_ptr<Body> body_;
-  std::unique_ptr<KinkedSprings> kinked_, kinked_ramp_;  // where laws of springs have kinks
-  std::unique_ptr<Body> ramp_body_;                      // whose stretches those of the ramp are
+  Assembly path_;                 // of the stage; its holds are those of loose bodies
+  std::optional<Assembly> ramp_;  // empty where nothing is constant; its holds may also be those of a mechanism
   std::vector<MonitorColumn> monitors_;
   struct MovedDof {
     double rate;                                 // by λ
