@@ -333,7 +333,8 @@ Vector border_rates(const SlidingSetting& setting, const SlidingState& at) {
   Vector rates = Vector::Zero(at.index.points);
   for (Index k = 0; k < rates.size(); ++k) {
     const auto point = static_cast<std::size_t>(k);
-    if (at.layout.lies_beside(point) || at.layout.points()[point].is_pinched()) continue;
+    const bool is_edge = at.layout.lies_beside(point) && at.is_closed(point);  // not of an open point inside a zone
+    if (is_edge || at.layout.points()[point].is_pinched()) continue;
     const Touch touch = touch_of_contact(setting, at.layout, point);
     const AxisStrain strain = strain_of_free_side(at, point);
     const AxisPlace axis = touch.axis(at);

@@ -2,6 +2,7 @@
 // body keeps a symmetric mesh, whose pitchforks are not opened, and where a touch is foreseen does not matter.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -269,6 +270,48 @@ law = { direction = "x", displacement = [-1.0, -0.01, 0.0, 1.0], force = [-1e-6,
   for (const EventKind kind : {EventKind::contact_closes, EventKind::contact_spreads})
     EXPECT_NEAR(test::event_of(with.record(), kind).lambda, test::event_of(without.record(), kind).lambda, 1e-5);
   EXPECT_EQ(with.events().size(), without.events().size());
+}
+
+// An arch lies flat on a plate, whose zone buckles off it where N d² = 4 π² EI, d its length. A peg below that is not
+// touched has an open point inside the zone, whose slope holds nothing.
+TEST(ContactMeshes, APegThatIsNotTouchedHoldsNoZone) {
+  constexpr double EI = 210000.0 * 10.0 / 12.0, radius = (100.0 * 100.0 + 6.0 * 6.0) / 12.0;
+  const double length = 2.0 * radius * std::asin(100.0 / radius);
+  for (const std::string elements : {"40", "80"}) {
+    SCOPED_TRACE(elements);
+    const std::string arch = R"toml(
+title = "Arch flattened by a plate, above a peg that it does not touch"
+material = { steel = { E = 210000.0 } }
+section = { s = { shape = "rectangle", width = 10.0, height = 1.0 } }
+point = { a = [-100.0, 0.0], b = [100.0, 0.0] }
+support = { a = ["x", "z"], b = ["x", "z"] }
+monitor = [{ name = "N", at = "c:0.5", component = "axial-force" }]
+path = { branches = "primary", step = 0.2, jumps = false, stop = { lambda = [-1.0, 5.2] } }
+member.c = { from = "a", to = "b", via = [0.0, 6.0], theory = "elastica", material = "steel", section = "s", elements = )toml" +
+                             elements + R"toml( }
+[[wall]]
+name = "plate"
+side = "above"
+profile = { type = "line", z = 9.0, slope = 0.0 }
+motion = { z = -1.0 }
+)toml";
+    const std::string peg = R"toml([[wall]]
+name = "peg"
+outline = { type = "circle", centre = [24.24, -5.353], radius = 8.0 }
+)toml";
+    for (const std::string& deck : {arch, arch + peg}) {
+      const Session run = test::traced(deck);
+      const RecordEvent& buckles = test::event_of(run.record(), EventKind::branch_point);
+      EXPECT_NEAR(buckles.lambda, 4.8890765, 1e-5);
+      EXPECT_EQ(buckles.unstable_before, 0);
+      EXPECT_EQ(buckles.unstable_after, 1);
+      const auto at = std::find_if(run.points().begin(), run.points().end(),
+                                   [&](const RecordPoint& point) { return point.arc >= buckles.arc; });
+      ASSERT_EQ(at->forces.size(), 2U);
+      const double d = length * (at->forces[1].label.fraction - at->forces[0].label.fraction);
+      EXPECT_NEAR(std::abs(buckles.monitors[0]) * d * d, 4.0 * pi * pi * EI, 1e-3 * 4.0 * pi * pi * EI);
+    }
+  }
 }
 
 }  // namespace arcwall::contact_meshes_test
