@@ -36,6 +36,10 @@ constexpr const char* not_of_path =
 constexpr const char* several_modes =
     "several modes become unstable at once, as of equal parts: imperfections decide where the structure moves";
 constexpr const char* no_rest = "the motion did not come to rest";
+constexpr const char* between_nodes =
+    "the motion leads to a wall that fits between two nodes of the mesh, on which it is computed: give the members "
+    "more "
+    "elements";
 
 // Stable equilibria of a record at a λ, but not beside the event at point `but` if it is one of the record's.
 std::vector<OnPath> stable_at(const Model& model, const Record& record, double lambda,
@@ -303,10 +307,13 @@ class Falls {
       }
     for (const double push : pushes) {
       const Vector pushed = start + push / mesh_.length(behind) * behind;
-      const auto end = fall_from(loss, mesh_.state(pushed, loss.at.lambda), mesh_.system().energy(event));
+      const State beside = mesh_.state(pushed, loss.at.lambda);
+      if (passes_a_wall(mesh_.system(), event, beside)) break;
+      const auto end = fall_from(loss, beside, mesh_.system().energy(event));
       if (!end) continue;
       fallen = *end;
-      if (fallen.jump->why != no_rest && fallen.jump->why != not_of_path) break;
+      const std::string& why = fallen.jump->why;
+      if (why != no_rest && why != between_nodes && why != not_of_path) break;
     }
     return fallen;
   }
@@ -331,7 +338,7 @@ class Falls {
       case DescentEnd::cut_off:
         return fallen_not(loss, took_too_long);
       case DescentEnd::not_found:
-        return fallen_not(loss, no_rest);
+        return fallen_not(loss, descent.meets_wall ? between_nodes : no_rest);
       case DescentEnd::at_rest:
         break;
     }

@@ -383,7 +383,8 @@ const Candidate* MultiplierContact::passing(const State& from, const State& to) 
     return PlaceInStep{.from = candidate.point().position(from), .to = candidate.point().position(to)};
   };
   for (const auto& [first, last] : neighbours_)
-    if (line_passes_core(first->obstacle(), in_step(*first), in_step(*last), from.lambda, to.lambda)) return first;
+    if (line_passes_core(first->obstacle(), in_step(*first), in_step(*last), from.lambda, to.lambda, touching))
+      return first;
   return nullptr;
 }
 

@@ -47,14 +47,16 @@ bool point_passes_through(const Obstacle& obstacle, const PlaceInStep& point, do
   return false;
 }
 
-// The line before, the way of its last point, the line behind and the way of its first point are a closed polygon.
+// The line before, the way of its last point, the line behind and the way of its first point are a closed polygon. On
+// the core itself a line would be on either side of it.
 bool line_passes_core(const Obstacle& obstacle, const PlaceInStep& first, const PlaceInStep& last, double from_lambda,
-                      double to_lambda) {
+                      double to_lambda, double touching) {
   const auto core = obstacle.core();
   if (!core) return false;
   const auto before = [&](const Vec2& place) { return Vec2(obstacle.seen_at_rest(place, from_lambda) - *core); };
   const auto behind = [&](const Vec2& place) { return Vec2(obstacle.seen_at_rest(place, to_lambda) - *core); };
   const Vec2 a = before(first.from), b = before(last.from), c = behind(last.to), d = behind(first.to);
+  if (distance_from_origin(c, d) <= touching) return true;
   return std::abs(turn_between(a, b) + turn_between(b, c) + turn_between(c, d) + turn_between(d, a)) > pi;
 }
 

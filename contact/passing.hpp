@@ -26,9 +26,10 @@ bool point_passes_through(const Obstacle& obstacle, const PlaceInStep& point, do
                           double touching);
 
 /// Whether a straight line between two points of the body, which go straight as the obstacle sees them, passes over its
-/// core between two values of λ. An obstacle without a core is never passed over.
+/// core between two values of λ, or comes as near to it as what touches may be off by [length]. An obstacle without a
+/// core is never passed over.
 bool line_passes_core(const Obstacle& obstacle, const PlaceInStep& first, const PlaceInStep& last, double from_lambda,
-                      double to_lambda);
+                      double to_lambda, double touching);
 
 /// By which angle the way along a line, from 0 to 1, goes round a place [rad]. The line turns by less than a right
 /// angle, and is known to what touches may be off by [length].

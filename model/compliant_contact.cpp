@@ -279,7 +279,8 @@ StepVerdict CompliantContact::check(const CheckedStep& step) const {
       const auto in_step = [&](double t) {
         return PlaceInStep{.from = pressed.pressure->place(from.u, t), .to = pressed.pressure->place(to.u, t)};
       };
-      if (line_passes_core(*walls_[j].obstacle, in_step(0.0), in_step(1.0), step.from.lambda, step.to.lambda))
+      if (line_passes_core(*walls_[j].obstacle, in_step(0.0), in_step(1.0), step.from.lambda, step.to.lambda,
+                           1e-6 * length_))
         return {.fault = StepVerdict::Fault::wall_crossed,
                 .place = words_of({.wall = walls_[j].name, .member = member_of(j), .fraction = pressed.from})};
     }

@@ -23,11 +23,6 @@ constexpr double at_rest = 1e-12;       // Newton's last correction at rest
 constexpr double no_motion = 1e-8;      // of a step, below which rest is looked for
 constexpr double far_away = 10.0;       // of the start
 
-bool passes_a_wall(const System& system, const State& from, const State& to) {
-  const StepVerdict verdict = system.check({.from = from, .to = to, .located = CheckedStep::LocatedEnd{}});
-  return verdict.fault == StepVerdict::Fault::wall_crossed;
-}
-
 // The drag with which the forces at a state move it so far, if nothing else resists.
 double drag_for(const UnilateralSystem& system, const State& state, double length) {
   Vector F(state.x.size());
@@ -41,6 +36,11 @@ double drag_for(const UnilateralSystem& system, const State& state, double lengt
 
 }  // namespace
 
+bool passes_a_wall(const System& system, const State& from, const State& to) {
+  const StepVerdict verdict = system.check({.from = from, .to = to, .located = CheckedStep::LocatedEnd{}});
+  return verdict.fault == StepVerdict::Fault::wall_crossed;
+}
+
 Descent descend(const System& system, const State& start, const MakeFactorization& make, Index& factorizations) {
   HeldMinimum minimum(system, make, factorizations);
   Descent descent{.state = start};
@@ -53,7 +53,9 @@ Descent descend(const System& system, const State& start, const MakeFactorizatio
       descent.end = DescentEnd::cut_off;
       return descent;
     }
-    if (!next || length > longest_motion || passes_a_wall(system, descent.state, *next)) {
+    const bool is_stopped = next && length <= longest_motion && passes_a_wall(system, descent.state, *next);
+    descent.meets_wall = descent.meets_wall || is_stopped;
+    if (!next || length > longest_motion || is_stopped) {
       if (++refused > most_refused) return descent;
       mu *= shorter_time;
       continue;
@@ -65,7 +67,8 @@ Descent descend(const System& system, const State& start, const MakeFactorizatio
     }
     if (length <= no_motion) {
       const auto rest = minimum.free(descent.state, at_rest);
-      if (rest && motion_between(system, *rest, descent.state) <= longest_motion) {
+      const bool is_near = rest && motion_between(system, *rest, descent.state) <= longest_motion;
+      if (is_near && !passes_a_wall(system, descent.state, *rest)) {
         descent.end = DescentEnd::at_rest;
         descent.state = *rest;
         return descent;

@@ -19,6 +19,7 @@ struct Descent {
   DescentEnd end = DescentEnd::not_found;
   State state{};  ///< where it ended; at rest an equilibrium
   int steps = 0;
+  bool meets_wall = false;  ///< on its way, between two contacts, where it cannot land
 };
 
 /// Overdamped motion of a structure at fixed λ among its obstacles, from a state that need be no equilibrium and whose
@@ -34,5 +35,8 @@ struct Descent {
 ///
 /// `factorizations`: that it may make; what is left of them when it ends.
 Descent descend(const System& system, const State& start, const MakeFactorization& make, Index& factorizations);
+
+/// Whether a structure that goes straight from one state to another at the same λ passes through an obstacle.
+bool passes_a_wall(const System& system, const State& from, const State& to);
 
 }  // namespace arcwall

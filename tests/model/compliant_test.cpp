@@ -710,21 +710,16 @@ TEST(CompliantWalls, MayHaveLawsOfTheirOwn) {
 }
 
 // A roller that moves through a strip within one step would leave it without force. It pushes the strip by as much in
-// short steps and long ones: at 40, 32.14 in the middle with 223.5, where a rigid roller pushes with 246.9.
+// short steps and long ones: at 40, 32.14 in the middle with 223.5, where a rigid roller pushes with 246.9. One of
+// radius 1 cannot bear that, and a path on which its centre would pass the strip ends.
 TEST(CompliantWalls, DoNotMoveThroughAMemberInOneStep) {
-  for (const std::string radius : {"3.0", "1.0"}) {
-    const Session fine = traced(pushed_strip(radius), {"path.max_step=0.02"});
-    EXPECT_GT(last(fine, 1), 200.0);
-    EXPECT_LT(last(fine, 1), 246.9);
-    for (const std::string step : {"0.1", "1.0", "5.0"}) {
-      SCOPED_TRACE(radius + ", " + step);
-      const Session run = traced(pushed_strip(radius), {"path.step=" + step});
-      EXPECT_EQ(run.points().back().lambda, 40.0);
-      EXPECT_NEAR(last(run, 1), last(fine, 1), 1e-6 * last(fine, 1));
-      EXPECT_NEAR(last(run, 0), last(fine, 0), 1e-6 * last(fine, 0));
-    }
-    if (radius == "3.0") EXPECT_NEAR(last(fine, 1), 223.5, 0.1);
-    if (radius == "3.0") EXPECT_NEAR(last(fine, 0), 32.14, 0.01);
+  for (const std::string step : {"0.1", "1.0", "5.0"}) {
+    SCOPED_TRACE(step);
+    const Session run = traced(pushed_strip("3.0"), {"path.step=" + step});
+    EXPECT_EQ(run.points().back().lambda, 40.0);
+    EXPECT_NEAR(last(run, 0), 32.14, 0.01);
+    EXPECT_NEAR(last(run, 1), 223.5, 0.1);
+    EXPECT_LT(traced(pushed_strip("1.0"), {"path.step=" + step}).points().back().lambda, 40.0);
   }
 }
 

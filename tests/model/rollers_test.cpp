@@ -129,7 +129,7 @@ TEST(Rollers, ARollerDoesNotSlipThroughBetweenNodes) {
   const std::string strip =
       "title = \"a strip pushed by a roller\"\nsupport = { a = [\"x\", \"z\", \"rotation\"], b = [\"z\", \"rotation\"] "
       "}\n"
-      "path = { step = 0.1, stop = { lambda = [-1.0, 40.0] } }\nmaterial.s = { E = 2.1e5 }\n"
+      "path = { step = 0.1, stop = { lambda = [-1.0, 40.0] } }\nmaterial.s = { E = 2.1e5, nu = 0.3 }\n"
       "section.r = { shape = \"rectangle\", width = 10.0, height = 1.0 }\n"
       "point = { a = [0.0, 0.0], b = [200.0, 0.0] }\n"
       "monitor = [{ name = \"mid\", at = \"c:0.5\", component = \"z\" }]\n"

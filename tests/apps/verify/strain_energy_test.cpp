@@ -509,7 +509,7 @@ lambda = [-1.0, 0.3]
       SCOPED_TRACE(theory + wall);
       const std::string deck = deck_of({.name = "", .theory = theory, .more = lines}) + wall + path;
       const TracedDeck traced(deck);
-      if (!wall.empty()) EXPECT_GT(traced.record().points.back().contacts, 0);
+      EXPECT_EQ(traced.record().points.back().contacts > 0, !wall.empty());
       EXPECT_TRUE(refusals(traced, deck, "material.m.E=20000.0").empty());
       // The energy shows a millionth; forces may be off by the corrector's distance times the greatest stiffness.
       for (const auto& [change, check] : {std::pair("material.m.E=20000.02", "path.csv matches the states"),
