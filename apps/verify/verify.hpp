@@ -7,10 +7,10 @@
 #include "model/model.hpp"
 #include "model/record.hpp"
 
-/// Checks a run again by plain formulas: strain energies of its own with automatic derivatives, walls evaluated from the
-/// deck, dense eigenvalues. Of what tracing computes with take part the stress-free axes, where the nodes of a mesh that
-/// slides are, how its elements bend beside contacts, the pressure of compliant walls, and in the balance of work the
-/// rate of the energy by λ.
+/// Checks a run again by plain formulas: strain energies of its own with automatic derivatives, walls evaluated from
+/// the deck, dense eigenvalues. Of what tracing computes with take part the stress-free axes, where the nodes of a mesh
+/// that slides are, how its elements bend beside contacts, the pressure of compliant walls, and in the balance of work
+/// the rate of the energy by λ.
 namespace arcwall::verify {
 
 /// The files of a run as texts; contacts_csv is empty of decks without walls.
