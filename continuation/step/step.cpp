@@ -106,10 +106,15 @@ bool leads_aside(const Metric& metric, const PathPoint& from, const PathPoint& t
 // that take each other back, and one whose corrections grew could end on a branch beside the first.
 bool middle_agrees(TraceTools& tools, const StepOrigin& origin, const Metric& metric, const PathPoint& end) {
   const PathPoint& from = origin.point();
-  const auto middle = counted_point(tools, origin, Segment(origin.metric, from, end), 0.5);
+  const Segment segment(origin.metric, from, end);
+  const ChordPlaneConstraint plane(origin.metric, from.state, end.state, 0.5);
+  auto middle = correct_onto(tools, origin, plane, segment, 0.5).point;
   if (!middle || leads_aside(metric, from, *middle) || leads_aside(metric, *middle, end)) return false;
   const auto [fewest, most] = std::minmax({from.negative_eigenvalues, end.negative_eigenvalues});
-  return !fewest || (*middle->negative_eigenvalues >= *fewest && *middle->negative_eigenvalues <= *most);
+  if (!fewest) return true;
+  decide_count(tools, *middle);
+  const std::optional<Index>& count = middle->negative_eigenvalues;
+  return count && *count >= *fewest && *count <= *most;
 }
 
 // Why the end of a step is not the continuation of its start: it is far off the predictor, has turned too much or lies

@@ -133,10 +133,10 @@ def test_engine_objects_cannot_be_made_without_their_content():
 
 def test_pickles_that_were_cut_are_refused(channel):
     path = channel.trace(max_points=3)
-    make, (checkpoint,) = path.__reduce__()
+    make, (deck_of, checkpoint) = path.__reduce__()
     for bytes_of in (b"", checkpoint[:-1], checkpoint[: len(checkpoint) // 2], checkpoint[:100] + b"x" + checkpoint[101:]):
         with pytest.raises(arcwall.FileError):
-            make(bytes_of)
+            make(deck_of, bytes_of)
 
 
 def test_a_path_is_traced_by_one_thread_at_a_time():
