@@ -117,11 +117,14 @@ Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wal
   return tangency;
 }
 
-// Whether a strand's end is at a joint through which the axis and the face go on as they are.
-bool goes_on(const Sliding& at, Index strand, bool last) {
+// Whether a strand's end is at a joint through which the axis and the face go on as they are, before the same wall.
+bool goes_on(const Sliding& at, const PlainWall& wall, Index strand, bool last) {
   constexpr double in_line = 1e-9;  // [rad]
   const auto other = at.body.joined_end(strand, last);
-  if (!other || at.body.half_height(other->strand) != at.body.half_height(strand)) return false;
+  if (!other) return false;
+  const double s = other->last ? at.body.length(other->strand) : 0.0;
+  if (!wall.concerns(at.body.label({.strand = other->strand, .s = s}).first)) return false;
+  if (at.body.half_height(other->strand) != at.body.half_height(strand)) return false;
   const auto position = [&](Index of, bool end) { return end ? at.mesh.nodes(of) - 1 : Index{0}; };
   const Index here = position(strand, last), there = position(other->strand, other->last);
   const double turn = at.mesh.node(strand, here, at.now).angle - at.mesh.node(other->strand, there, at.now).angle +
@@ -244,7 +247,7 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
     const SlidingNode node{.strand = strand, .position = last ? at->mesh.nodes(strand) - 1 : 0};
     const PlainWall& wall = wall_of_obstacle(*at, walls, obstacle);
     const Touch& touch = add(wall, node, state.active_set[points.size() + i] != 0);
-    if (touch.closed && goes_on(*at, strand, last))
+    if (touch.closed && goes_on(*at, wall, strand, last))
       touches.tangencies.push_back(tangency_at_joint(at, wall, touch, node, last));
   }
   for (const SlidingContactLayout::PressedNode& node : at->on.pressed_nodes()) {

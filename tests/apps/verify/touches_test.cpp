@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/apps/traced_deck.hpp"
+#include "tests/apps/verify/expect_whole.hpp"
 
 namespace arcwall::verify::touches_test {
 
@@ -85,6 +86,32 @@ TEST(Touches, ThatSlideResistATurnAsTwoCirclesDo) {
     ASSERT_GT(contact.force, 1.0);
     EXPECT_NEAR(contact.stiffness * (1.0 / one.distance + contact.curvature), contact.force, 1e-4 * contact.force);
   }
+}
+
+// A floor below one of two members in line: at their joint the one touches as with a free end, at any slope.
+TEST(Touches, AnEndAtAJointMayTiltOnAWallOfItsOwn) {
+  test::expect_whole(TracedDeck(R"toml(
+title = "Beam on a stop spring with play, and a floor"
+material.steel = { E = 2.1e5 }
+section.s = { shape = "rectangle", width = 10.0, height = 1.0 }
+point = { a = [0.0, 0.0], m = [100.0, 0.0], b = [200.0, 0.0] }
+support = { a = ["x", "z"], b = ["z"] }
+path = { step = 0.1, stop = { lambda = [-1.0, 10.0] } }
+load = [{ on = "l", distributed = [0.0, -0.1] }, { on = "r", distributed = [0.0, -0.1] }, { at = "b", force = [-5.0, 0.0] }]
+wall = [{ name = "floor", contact_surface = "axis", members = ["l"], side = "below", profile = { type = "flat", z = -2.0 } }]
+monitor = [{ name = "mid", at = "m", component = "z" }, { name = "f", wall = "floor", component = "force-z" }]
+[[spring]]
+name = "s"
+at = "m"
+law = { direction = "z", displacement = [-3.0, -2.0, 0.0, 1.0], force = [-12.0, -10.0, 0.0, 0.0] }
+[[spring]]
+name = "t"
+at = "m"
+law = { direction = "rotation", displacement = [-0.02, -0.01, 0.0, 0.01, 0.02], force = [-100.0, 0.0, 0.0, 0.0, 100.0] }
+[member]
+l = { from = "a", to = "m", theory = "elastica", material = "steel", section = "s", elements = 10 }
+r = { from = "m", to = "b", theory = "elastica", material = "steel", section = "s", elements = 10 }
+)toml"));
 }
 
 }  // namespace arcwall::verify::touches_test
