@@ -48,15 +48,18 @@ struct ContactPoint {
   }
 };
 
-/// The contacts of a wall, or those of them with one member or with one place of it.
+/// The contacts of a wall or of all, or those of them with one member or with one place of it.
 struct ContactsOfWall {
-  std::string wall{};
-  std::string member{};              ///< empty: of all
+  std::string wall{};                ///< empty: of all
+  std::string member{};              ///< likewise
   std::optional<double> fraction{};  ///< of the member's arc length
 
-  bool includes(const std::string& touching, double at) const {
+  bool includes_wall(const std::string& name) const { return wall.empty() || name == wall; }
+  bool includes(const ContactLabel& contact) const {
     constexpr double same = 1e-9;
-    return member.empty() || (touching == member && (!fraction || std::abs(at - *fraction) <= same));
+    return includes_wall(contact.wall) &&
+           (member.empty() ||
+            (contact.member == member && (!fraction || std::abs(contact.fraction - *fraction) <= same)));
   }
 };
 

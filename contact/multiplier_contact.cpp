@@ -46,10 +46,6 @@ class PastKink final : public Observable {
   WallKink kink_;
 };
 
-}  // namespace
-
-namespace {
-
 using Neighbours = std::vector<std::pair<const Candidate*, const Candidate*>>;
 
 // Points of a wall that follow each other along a member, face by face.
@@ -497,7 +493,7 @@ WallAction MultiplierContact::wall_action(const State& state, const ContactsOfWa
     const double p = state.x[n + k], r = springs_[j].r;
     const bool of_opposite = contact.opposite() && p < 0.0;
     const ContactLabel& label = (of_opposite ? candidate(*contact.opposite()) : contact).label();
-    if (label.wall != of.wall || !of.includes(label.member, label.fraction)) return;
+    if (!of.includes(label)) return;
     // `stiffness`: by which t falls with the field's own value; `number` of t among the unknowns.
     const auto add = [&](const TrackedPoint& point, const PointKinematics& at, const QuadraticField& f, double t,
                          double stiffness, Index number) {

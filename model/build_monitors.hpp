@@ -15,7 +15,7 @@ struct Measured {
   const Body& body;
   const Places& places;
   const ContactQuery* contacts = nullptr;  ///< of the system's states; null where there are none
-  std::vector<std::string> rigid_walls{};  ///< whose forces are unknowns, and not among those of the structure
+  bool walls_are_rigid = false;            ///< their forces are unknowns, and not among those of the structure
   const KinkedSprings* kinked = nullptr;   ///< the same where laws have kinks; else null
 };
 

@@ -244,7 +244,8 @@ std::vector<ContactPoint> CompliantContact::closed_contacts(const State& state) 
 WallAction CompliantContact::wall_action(const State& state, const ContactsOfWall& of, const Vec2& about) const {
   WallAction action(state.x.size());
   for (std::size_t j = 0; j < walls_.size(); ++j) {
-    if (!acts(state, j) || walls_[j].name != of.wall || (!of.member.empty() && of.member != member_of(j))) continue;
+    if (!acts(state, j) || !of.includes_wall(walls_[j].name) || (!of.member.empty() && of.member != member_of(j)))
+      continue;
     for (const Pressed& pressed : pressed_[j]) {
       const auto resultant = pressed.pressure->resultant(local(state, pressed).u, state.lambda, about);
       for (std::size_t i = 0; i < action.value.size(); ++i) {
@@ -273,7 +274,8 @@ std::vector<CompliantContact::Place> CompliantContact::places(const State& state
 
 // A pressed part that reaches the end of the wall's surface: there forces jump, which no tangent knows.
 StepVerdict CompliantContact::check(const CheckedStep& step) const {
-  for (std::size_t j = 0; j < walls_.size(); ++j)
+  for (std::size_t j = 0; j < walls_.size(); ++j) {
+    if (!walls_[j].obstacle->core()) continue;
     for (const Pressed& pressed : pressed_[j]) {
       const Local from = local(step.from, pressed), to = local(step.to, pressed);
       const auto in_step = [&](double t) {
@@ -284,6 +286,7 @@ StepVerdict CompliantContact::check(const CheckedStep& step) const {
         return {.fault = StepVerdict::Fault::wall_crossed,
                 .place = words_of({.wall = walls_[j].name, .member = member_of(j), .fraction = pressed.from})};
     }
+  }
   for (std::size_t j = 0; j < walls_.size(); ++j)
     for (const Pressed& pressed : pressed_[j])
       if (acts(step.to, j) && pressed.pressure->leaves_surface(local(step.to, pressed).u, step.to.lambda))

@@ -14,7 +14,7 @@ double ContactEdge::value(const State& state) const {
   contacts.insert(contacts.end(), pressed.begin(), pressed.end());
   std::optional<ContactPoint> edge;
   for (const ContactPoint& contact : contacts) {
-    if (contact.label.wall != of_.wall || !of_.includes(contact.label.member, contact.label.fraction)) continue;
+    if (!of_.includes(contact.label)) continue;
     const bool before = edge && contact.label.fraction < edge->label.fraction;
     if (!edge || before == (which_ == Which::first)) edge = contact;
   }

@@ -21,10 +21,7 @@ double use_of(const MultiplierContact& contacts, const State& state, Index j) {
 template <typename Visit>
 void FrictionAtWall::for_each(const State& state, const Visit& visit) const {
   for (Index j = 0; j < contacts_.contact_count(); ++j) {
-    const ContactLabel& label = contacts_.candidate(j).label();
-    if (label.wall == of_.wall && of_.includes(label.member, label.fraction) &&
-        contacts_.friction_index(state.active_set, j))
-      visit(j);
+    if (of_.includes(contacts_.candidate(j).label()) && contacts_.friction_index(state.active_set, j)) visit(j);
   }
 }
 

@@ -32,12 +32,6 @@ bool moves_walls(const deck::Deck& deck) {
                      [](const deck::Wall& wall) { return !motion_of(wall).is_none(); });
 }
 
-std::vector<std::string> names_of_walls(const deck::Deck& deck) {
-  std::vector<std::string> names;
-  for (const deck::Wall& wall : deck.walls) names.push_back(wall.name);
-  return names;
-}
-
 bool has_interference(const deck::Deck& deck) {
   return std::any_of(deck.walls.begin(), deck.walls.end(),
                      [](const deck::Wall& wall) { return wall.interference > 0.0; });
@@ -160,7 +154,7 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
                           .body = body(),
                           .places = described.places,
                           .contacts = contacts(),
-                          .rigid_walls = contact() ? names_of_walls(deck()) : std::vector<std::string>{},
+                          .walls_are_rigid = contact() != nullptr,
                           .kinked = path_.kinked.get()};
   monitors_ = monitor_columns(deck(), read_off, problems);
   structure().nodal_terms().for_each_moved_support(

@@ -45,11 +45,11 @@ std::vector<HeldNode> nodes_moved_by(const Structure& structure, Index dof) {
   return found;
 }
 
-// What a wall exerts on a node: its force along x or z, or its moment about the node, wherever that has moved.
-class WallAtNode final : public Observable {
+// What walls exert on a node: their force along x or z, or their moment about the node, wherever that has moved.
+class WallsAtNode final : public Observable {
  public:
-  WallAtNode(const ContactQuery& contacts, ContactsOfWall of, const Vec2& at_rest, Dof direction,
-             std::shared_ptr<const Observable> moved_x, std::shared_ptr<const Observable> moved_z)
+  WallsAtNode(const ContactQuery& contacts, ContactsOfWall of, const Vec2& at_rest, Dof direction,
+              std::shared_ptr<const Observable> moved_x, std::shared_ptr<const Observable> moved_z)
       : x_(contacts, of, WallForce::What::x),
         z_(contacts, of, WallForce::What::z),
         moment_(contacts, std::move(of), WallForce::What::moment, at_rest),
@@ -87,18 +87,18 @@ class WallAtNode final : public Observable {
 // A quantity less others.
 class Less final : public Observable {
  public:
-  Less(std::shared_ptr<const Observable> whole, std::vector<WallAtNode> parts)
+  Less(std::shared_ptr<const Observable> whole, std::vector<WallsAtNode> parts)
       : whole_(std::move(whole)), parts_(std::move(parts)) {}
 
   double value(const State& state) const override {
     double value = whole_->value(state);
-    for (const WallAtNode& part : parts_) value -= part.value(state);
+    for (const WallsAtNode& part : parts_) value -= part.value(state);
     return value;
   }
 
   Row gradient(const State& state) const override {
     Row row = whole_->gradient(state);
-    for (const WallAtNode& part : parts_) {
+    for (const WallsAtNode& part : parts_) {
       const Row of = part.gradient(state);
       row.dx -= of.dx;
       row.dlambda -= of.dlambda;
@@ -108,7 +108,7 @@ class Less final : public Observable {
 
  private:
   std::shared_ptr<const Observable> whole_;
-  std::vector<WallAtNode> parts_;
+  std::vector<WallsAtNode> parts_;
 };
 
 }  // namespace
@@ -116,15 +116,13 @@ class Less final : public Observable {
 std::shared_ptr<const Observable> support_reaction(const Measured& from, Index dof) {
   const Structure& structure = from.structure;
   auto reaction = structural_reaction(from, dof);
-  if (structure.unknown(dof)) return reaction;
-  std::vector<WallAtNode> walls;
+  if (structure.unknown(dof) || !from.walls_are_rigid) return reaction;
+  std::vector<WallsAtNode> walls;
   for (const HeldNode& held : nodes_moved_by(structure, dof))
-    for (const std::string& wall : from.rigid_walls)
-      walls.emplace_back(*from.contacts, ContactsOfWall{.wall = wall, .member = held.member, .fraction = held.fraction},
-                         structure.position(held.node), held.direction,
-                         from.body.motion(structure.dof(held.node, Dof::x)),
-                         from.body.motion(structure.dof(held.node, Dof::z)));
-  if (walls.empty()) return reaction;
+    walls.emplace_back(*from.contacts, ContactsOfWall{.member = held.member, .fraction = held.fraction},
+                       structure.position(held.node), held.direction,
+                       from.body.motion(structure.dof(held.node, Dof::x)),
+                       from.body.motion(structure.dof(held.node, Dof::z)));
   return std::make_shared<Less>(std::move(reaction), std::move(walls));
 }
 

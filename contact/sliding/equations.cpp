@@ -239,11 +239,12 @@ WallAction wall_action(const SlidingSetting& setting, const SlidingState& at, co
                        const Vec2& about) {
   WallAction action(at.state.x.size());
   const auto includes = [&](const Touch& touch) {
-    if (setting.obstacles[obstacle_that_acts(setting, at, touch)].name != of.wall) return false;
+    const std::string& wall = setting.obstacles[obstacle_that_acts(setting, at, touch)].name;
+    if (!of.includes_wall(wall)) return false;
     if (of.member.empty()) return true;
     const double s = at.mesh.coordinate(touch.strand, touch.position, at.now.s);
     const auto [member, fraction] = setting.body.label({.strand = touch.strand, .s = s});
-    return of.includes(member, fraction);
+    return of.includes({.wall = wall, .member = member, .fraction = fraction});
   };
   // No wall exerts the couple that keeps an open point where its gap is least, and is zero to round-off.
   const auto is_of_open_point = [&](Index multiplier) {
