@@ -50,6 +50,33 @@ enum class EventKind {
   user,  ///< of a detector that the program added
 };
 
+/// Returns true if contacts change at such an event.
+constexpr bool changes_contact(EventKind kind) {
+  switch (kind) {
+    case EventKind::contact_closes:
+    case EventKind::contact_opens:
+    case EventKind::contact_spreads:
+    case EventKind::contact_splits:
+    case EventKind::contact_shrinks:
+    case EventKind::contacts_merge:
+    case EventKind::contact_slips:
+    case EventKind::contact_sticks:
+    case EventKind::contact_transfers:
+      return true;
+    case EventKind::start:
+    case EventKind::end:
+    case EventKind::limit_point:
+    case EventKind::contact_limit_point:
+    case EventKind::turning_point:
+    case EventKind::value_crossing:
+    case EventKind::reversal:
+    case EventKind::branch_point:
+    case EventKind::user:
+      break;
+  }
+  return false;
+}
+
 /// Type of extremum of λ at a limit point.
 enum class Extremum { maximum, minimum };
 

@@ -195,33 +195,6 @@ std::optional<EventKind> event_kind(std::string_view text) { return with_text(ev
 
 std::optional<EndReason> end_reason(std::string_view text) { return with_text(end_reasons, text); }
 
-bool changes_contact(EventKind kind) {
-  switch (kind) {
-    case EventKind::contact_closes:
-    case EventKind::contact_opens:
-    case EventKind::contact_spreads:
-    case EventKind::contact_splits:
-    case EventKind::contact_shrinks:
-    case EventKind::contacts_merge:
-    case EventKind::contact_slips:
-    case EventKind::contact_sticks:
-    case EventKind::contact_transfers:
-      return true;
-    case EventKind::start:
-    case EventKind::end:
-    case EventKind::limit_point:
-    case EventKind::contact_limit_point:
-    case EventKind::turning_point:
-    case EventKind::value_crossing:
-    case EventKind::reversal:
-    case EventKind::branch_point:
-    case EventKind::user:
-      return false;
-  }
-  assert(false);
-  return false;
-}
-
 std::string_view explanation(EndReason reason) {
   switch (reason) {
     case EndReason::stop:

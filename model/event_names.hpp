@@ -32,9 +32,6 @@ std::optional<EventKind> event_kind(std::string_view text);
 /// Returns the reason of that name; empty if there is none.
 std::optional<EndReason> end_reason(std::string_view text);
 
-/// Returns true if contacts change at such an event: contact-closes, contact-splits, …
-bool changes_contact(EventKind kind);
-
 /// Returns the explanation of a reason, a sentence without a full stop.
 std::string_view explanation(EndReason reason);
 

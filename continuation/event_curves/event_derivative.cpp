@@ -30,32 +30,6 @@ constexpr double persistent = 1e-6;       // of the most that it could be wᵀ F
 constexpr double roundoff = 1e-10;        // of the loads in what a step of the number changes
 constexpr double singular_beside = 1e-7;  // where K is singular to the last digit its null vectors come from beside
 
-bool is_change_of_contact(EventKind kind) {
-  switch (kind) {
-    case EventKind::contact_closes:
-    case EventKind::contact_opens:
-    case EventKind::contact_spreads:
-    case EventKind::contact_splits:
-    case EventKind::contact_shrinks:
-    case EventKind::contacts_merge:
-    case EventKind::contact_slips:
-    case EventKind::contact_sticks:
-    case EventKind::contact_transfers:
-      return true;
-    case EventKind::start:
-    case EventKind::end:
-    case EventKind::limit_point:
-    case EventKind::contact_limit_point:
-    case EventKind::turning_point:
-    case EventKind::value_crossing:
-    case EventKind::reversal:
-    case EventKind::branch_point:
-    case EventKind::user:
-      break;
-  }
-  return false;
-}
-
 // Several directions leave a change of contact. On a smooth arc a branch point is one-sided where a contact forbids one
 // of the two.
 bool is_at_corner(const BranchPoint& point) { return point.type == BranchType::one_sided && point.modes.empty(); }
@@ -63,7 +37,7 @@ bool is_at_corner(const BranchPoint& point) { return point.type == BranchType::o
 // Also where the direction that is taken keeps the old contacts.
 bool is_at_change_of_contact(const Arc& arc) {
   return std::any_of(arc.events.begin(), arc.events.end(), [](const Event& event) {
-    return is_change_of_contact(event.kind) || (event.branching && is_at_corner(*event.branching));
+    return changes_contact(event.kind) || (event.branching && is_at_corner(*event.branching));
   });
 }
 
