@@ -53,9 +53,10 @@ Descent descend(const System& system, const State& start, const MakeFactorizatio
       descent.end = DescentEnd::cut_off;
       return descent;
     }
-    const bool is_stopped = next && length <= longest_motion && passes_a_wall(system, descent.state, *next);
+    const bool is_short = next && length <= longest_motion;
+    const bool is_stopped = is_short && passes_a_wall(system, descent.state, *next);
     descent.meets_wall = descent.meets_wall || is_stopped;
-    if (!next || length > longest_motion || is_stopped) {
+    if (!is_short || is_stopped) {
       if (++refused > most_refused) return descent;
       mu *= shorter_time;
       continue;
