@@ -112,6 +112,8 @@ double step_of(const std::vector<SystemSample>& samples) {
   return 1.0 / greatest;
 }
 
+Direction times(double factor, const Direction& d) { return {.dx = factor * d.dx, .dlambda = factor * d.dlambda}; }
+
 EventDerivative none(std::string why) { return {.value = std::nullopt, .why_none = std::move(why)}; }
 
 EventDerivative too_far() {
@@ -129,15 +131,17 @@ EventDerivative known(double value) {
 }  // namespace
 
 // Long steps have an error of their own, where contacts slide over bends or elements are slender, short ones that of
-// round-off: of the two steps in a row whose derivatives differ least the longer one is taken.
+// round-off: of the three steps in a row whose derivatives differ least the longest one is taken. Two may agree by
+// chance.
 template <typename Function>
 EventDerivatives::Settled EventDerivatives::with_best_step(double longest, int halvings, const Function& derivative) {
   Settled best{.value = std::nan(""), .off = infinity};
-  double before = derivative(longest);
-  for (int i = 1; i <= halvings; ++i) {
-    const double now = derivative(std::ldexp(longest, -i));
-    if (std::abs(now - before) < best.off) best = {.value = before, .off = std::abs(now - before)};
-    before = now;
+  double longer = derivative(longest), middle = derivative(0.5 * longest);
+  for (int i = 2; i <= halvings; ++i) {
+    const double shorter = derivative(std::ldexp(longest, -i));
+    const double off = std::max(std::abs(middle - longer), std::abs(shorter - middle));
+    if (off < best.off) best = {.value = longer, .off = off};
+    longer = std::exchange(middle, shorter);
   }
   return best;
 }
@@ -224,6 +228,21 @@ bool EventDerivatives::begin_crossing(const BranchPoint& point) {
   return bend_.allFinite();
 }
 
+// The longest step along d [path metric] of differences that stay on one piece of the equations: those of a compliant
+// contact or a spring's law are others beyond the zero of its guard.
+double EventDerivatives::step_on_one_piece(const Direction& d, double longest) const {
+  constexpr double steps_to_zero = 4.0;  // differences take three
+  const double length = metric_.norm(d);
+  if (length == 0.0) return longest;
+  const GuardsAlong guards = system_.guards_along(state_, d);
+  for (Index j = 0; j < static_cast<Index>(state_.active_set.size()); ++j) {
+    const double distance = std::abs(guards.values[j]), rate = std::abs(guards.rates[j]) / length;
+    const bool ends_piece = system_.enforcement(state_.active_set, j).compliance > 0.0 && distance > vanishing;
+    if (ends_piece && steps_to_zero * longest * rate > distance) longest = distance / (steps_to_zero * rate);
+  }
+  return longest;
+}
+
 // D²F[k, d]
 Vector EventDerivatives::second_derivative(const Direction& k, const Direction& d, double h) {
   if (metric_.norm(d) == 0.0 && d.dx.isZero(0.0)) return Vector::Zero(state_.x.size());
@@ -233,7 +252,8 @@ Vector EventDerivatives::second_derivative(const Direction& k, const Direction& 
 
 // wᵀ D²F[k, d]
 EventDerivatives::Settled EventDerivatives::bend(const Direction& k, const Direction& d) {
-  return with_best_step(longest_step, halvings, [&](double h) { return left_.dot(second_derivative(k, d, h)); });
+  return with_best_step(step_on_one_piece(d, longest_step), halvings,
+                        [&](double h) { return left_.dot(second_derivative(k, d, h)); });
 }
 
 // The change of the equilibrium with κ. Where that moves a support, say, F_κ at the same state strains one element
@@ -305,24 +325,28 @@ double EventDerivatives::rate_of(const Row& gradient, const Direction& d, const 
   return at_rest.off <= following.off ? apply(gradient, d) + at_rest.value : following.value;
 }
 
-// dm/dκ = ∂m/∂κ + ∂m/∂x · dx/dκ + ∂m/∂λ · dλ/dκ of each quantity, along the event.
+// dm/dκ = ∂m/∂κ + ∂m/∂x · dx/dκ + ∂m/∂λ · dλ/dκ of each quantity, along the event. None of those that change by what
+// is unsure in the event's motion.
 std::vector<std::optional<double>> EventDerivatives::rates(const Direction& motion,
-                                                           const std::vector<SystemSample>& samples) const {
-  std::vector<std::optional<double>> rates;
+                                                           const std::vector<SystemSample>& samples,
+                                                           const std::vector<Direction>& unsure) const {
+  std::vector<std::optional<double>> rates(quantities_.size());
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
+    if (!quantities_[i]) continue;
     const auto quantity = [i](const SystemSample& sample, const State& state) {
       return sample.quantities[i]->value(state);
     };
-    const double rate =
-        quantities_[i] ? rate_of(quantities_[i]->gradient(state_), motion, samples, quantity) : std::nan("");
-    rates.push_back(std::isfinite(rate) ? std::optional(rate) : std::nullopt);
+    const Row gradient = quantities_[i]->gradient(state_);
+    Settled rate{.value = rate_of(gradient, motion, samples, quantity), .off = 0.0};
+    for (const Direction& part : unsure) rate.off += std::abs(apply(gradient, part));
+    if (is_settled(rate, quantities_[i]->value(state_), samples)) rates[i] = rate.value;
   }
   return rates;
 }
 
 EventDerivative EventDerivatives::of_motion(const Direction& motion, const std::vector<SystemSample>& samples) const {
   EventDerivative found = known(motion.dlambda);
-  if (found.value) found.rates = rates(motion, samples);
+  if (found.value) found.rates = rates(motion, samples, {});
   return found;
 }
 
@@ -338,7 +362,10 @@ EventDerivative EventDerivatives::by_limit(const Direction& response, const std:
   const TurnedBy turned = turned_by(response, samples);
   const Settled &equilibria = turned.equilibria.moves, &equations = turned.equations.moves;
   const bool equilibria_tell = equilibria.off <= equations.off || !std::isfinite(equations.off);
-  found.rates = rates(along(response, equilibria_tell ? equilibria.value : equations.value), samples);
+  const Settled& moves = equilibria_tell ? equilibria : equations;
+  found.off = turned.rate.off;
+  found.steps_too_long = equilibria_tell && !(found.off <= short_enough * std::abs(turned.rate.value));
+  found.rates = rates(along(response, moves.value), samples, {times(moves.off, tangent_)});
   return found;
 }
 
@@ -393,7 +420,7 @@ double EventDerivatives::turning_beside(Corrector& corrector, const Observable& 
 // The rate of m′ along the path.
 EventDerivatives::Settled EventDerivatives::turning_along() const {
   Corrector corrector(system_, {}, lambda_scale_, factorization_);
-  return with_best_step(longest_turn, turn_halvings, [&](double h) {
+  return with_best_step(step_on_one_piece(tangent_, longest_turn), turn_halvings, [&](double h) {
     double sum = 0.0;
     for (const DifferencePlace& place : central_difference)
       sum += place.weight / h *
@@ -408,7 +435,7 @@ EventDerivatives::Settled EventDerivatives::turning_along() const {
 EventDerivatives::Settled EventDerivatives::turning_rate(const Direction& d, const Vector& more,
                                                          double more_of_gradient) {
   const Row gradient = watched_->gradient(state_);
-  return with_best_step(longest_step, halvings, [&](double h) {
+  return with_best_step(step_on_one_piece(d, longest_step), halvings, [&](double h) {
     const auto change = along_path(-second_derivative(tangent_, d, h) - more);
     if (!change) return std::nan("");
     const double of_gradient = difference_along(
@@ -442,12 +469,16 @@ EventDerivatives::TurnedBy EventDerivatives::turned_by(const Direction& response
   }
   rate.off = std::abs(rate.value - coarse);
   const Direction stays{.dx = Vector::Zero(response.dx.size()), .dlambda = 0.0};
-  const Vector more = rate_along(samples, stays, [&](const SystemSample& sample, const State& state) {
+  const auto along_tangent = [&](const SystemSample& sample, const State& state) {
     Linearization of_sample;
     return directional(*sample.system, state, tangent_, of_sample);
-  });
+  };
+  const Vector more = rate_along(samples, stays, along_tangent);
+  Settled here = turning_rate(response, more, of_gradient);
+  const auto change = along_path(more - rate_along(samples, stays, along_tangent, true));
+  here.off += change ? std::abs(apply(watched_->gradient(state_), *change)) : infinity;
   return {.equilibria = turned(turning_along_, rate, response),
-          .equations = turned(turning_here_, turning_rate(response, more, of_gradient), response),
+          .equations = turned(turning_here_, here, response),
           .rate = rate};
 }
 
@@ -458,16 +489,21 @@ EventDerivative EventDerivatives::by_turning(const Direction& response, const st
                                !std::isfinite(by_equations.slope.off);
   const Turned& told = equilibria_tell ? by_equilibria : by_equations;
   EventDerivative found = settled(told.slope, samples);
-  if (found.value) found.rates = rates(along(response, told.moves.value), samples);
+  if (found.value) found.rates = rates(along(response, told.moves.value), samples, {times(told.moves.off, tangent_)});
   found.off = rate.off;
   found.steps_too_long = equilibria_tell && !(rate.off <= short_enough * std::abs(rate.value));
   return found;
 }
 
+bool EventDerivatives::is_settled(const Settled& rate, double of, const std::vector<SystemSample>& samples) {
+  constexpr double sure = 1e-3, little = 1e-9;  // of the rate; of what changes by a step of the number
+  return std::isfinite(rate.value) &&
+         rate.off <= sure * std::abs(rate.value) + little * std::abs(of) / step_of(samples);
+}
+
 // Laws with kinks and walls whose curvature jumps have no second derivatives that differences come to.
 EventDerivative EventDerivatives::settled(const Settled& slope, const std::vector<SystemSample>& samples) const {
-  constexpr double sure = 1e-3, little = 1e-9;  // of the slope; of λ by a step of the number
-  if (slope.off > sure * std::abs(slope.value) + little * std::abs(state_.lambda) / step_of(samples))
+  if (!is_settled(slope, state_.lambda, samples))
     return none("the second derivatives of the equations are not told there, as beside a kink of a law or of a wall");
   return known(slope.value);
 }
@@ -503,22 +539,26 @@ EventDerivative EventDerivatives::by_crossing(const std::vector<SystemSample>& s
     right[i] = rate_along(samples, *v, work);
     off[i] = std::abs(right[i] - rate_along(samples, *v, work, true));
   }
-  const auto with_rates = [&](const Settled& slope, double along_mode) {
-    EventDerivative found = settled(slope, samples);
-    const Direction motion{.dx = v->dx + along_mode * kernel_[0].dx + slope.value * kernel_[1].dx,
-                           .dlambda = slope.value};
-    if (found.value) found.rates = rates(motion, samples);
-    return found;
-  };
   const double determinant = bend_.determinant();
-  const double slope = -(bend_(0, 0) * right[1] - bend_(1, 0) * right[0]) / determinant;
   const Eigen::Matrix2d B = bend_.cwiseAbs();
   const double off_determinant =
       bend_off_(0, 0) * B(1, 1) + B(0, 0) * bend_off_(1, 1) + 2.0 * B(0, 1) * bend_off_(0, 1);
-  const double parts = B(0, 0) * off[1] + B(1, 0) * off[0] + bend_off_(0, 0) * std::abs(right[1]) +
-                       bend_off_(1, 0) * std::abs(right[0]) + std::abs(slope) * off_determinant;
-  return with_rates({.value = slope, .off = parts / std::abs(determinant)},
-                    -(bend_(1, 1) * right[0] - bend_(0, 1) * right[1]) / determinant);
+  // By Cramer's rule, with the row of the other unknown.
+  const auto solution = [&](Index row) {
+    const Index other = 1 - row;
+    const double value = -(bend_(other, other) * right[row] - bend_(row, other) * right[other]) / determinant;
+    const double parts = B(other, other) * off[row] + B(row, other) * off[other] +
+                         bend_off_(other, other) * std::abs(right[row]) +
+                         bend_off_(row, other) * std::abs(right[other]) + std::abs(value) * off_determinant;
+    return Settled{.value = value, .off = parts / std::abs(determinant)};
+  };
+  const Settled along_mode = solution(0), slope = solution(1);
+  EventDerivative found = settled(slope, samples);
+  const Direction motion{.dx = v->dx + along_mode.value * kernel_[0].dx + slope.value * kernel_[1].dx,
+                         .dlambda = slope.value};
+  if (found.value)
+    found.rates = rates(motion, samples, {times(along_mode.off, kernel_[0]), times(slope.off, kernel_[1])});
+  return found;
 }
 
 }  // namespace arcwall

@@ -60,6 +60,7 @@ class EventDerivatives {
 
   bool begin_regular(const Direction& along);
   bool begin_crossing(const BranchPoint& point);
+  double step_on_one_piece(const Direction& d, double longest) const;
   Settled bend(const Direction& k, const Direction& d);
   template <typename Solve>
   std::optional<Direction> followed(const std::vector<SystemSample>& samples, const Solve& solve) const;
@@ -87,7 +88,9 @@ class EventDerivatives {
     Settled rate;
   };
   TurnedBy turned_by(const Direction& response, const std::vector<SystemSample>& samples);
-  std::vector<std::optional<double>> rates(const Direction& motion, const std::vector<SystemSample>& samples) const;
+  std::vector<std::optional<double>> rates(const Direction& motion, const std::vector<SystemSample>& samples,
+                                           const std::vector<Direction>& unsure) const;
+  static bool is_settled(const Settled& rate, double of, const std::vector<SystemSample>& samples);
   double greatest_work(const Vector& f) const;
   EventDerivative settled(const Settled& slope, const std::vector<SystemSample>& samples) const;
   template <typename Function>

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -154,8 +155,10 @@ std::vector<RecordEvent> located(const TracedDeck& traced) {
 }
 
 // dm/dn of every monitor at every event, as differences of whole runs have it, to 1e-6 of its greatest term: of the
-// derivative, or of what the monitor changes by where the number does so by itself.
-void expect_agreement(const std::string& deck, const std::vector<Number>& numbers) {
+// derivative, or of what the monitor changes by where the number does so by itself. `untold`: events that may tell
+// none.
+void expect_agreement(const std::string& deck, const std::vector<Number>& numbers,
+                      std::optional<EventKind> untold = std::nullopt) {
   std::string wanted = "path.sensitivity=[";
   for (const Number& number : numbers) wanted += (wanted.back() == '[' ? "'" : ",'") + number.key + "'";
   const TracedDeck traced(deck, {wanted + "]"});
@@ -177,6 +180,7 @@ void expect_agreement(const std::string& deck, const std::vector<Number>& number
       for (std::size_t m = 0; m < expected[i].size(); ++m) {
         SCOPED_TRACE(fmt::format("{} {}, monitor {} by {}", to_text(events[i].kind), events[i].lambda, m, found.key));
         if (traced.record().columns[m].name == "use-place") continue;  // it jumps
+        if (!found.rates[m] && events[i].kind == untold) continue;
         ASSERT_TRUE(found.rates[m]);
         // What a length does at the event's own state is no small change, so that states which follow it tell the rate:
         // of a stress, in which great terms cancel, to 2e-5.
@@ -249,6 +253,29 @@ contact_surface = "axis"
                           {"section.strip.height_to", 1e-3},
                           {"section.strip.width", 1e-2},
                           {"section.strip.height", 1e-3}});
+}
+
+// An arch turns at a limit point just before a compliant plate leaves it, where the pressed length is small: the second
+// derivatives of the equations change fast, up to a kink. At the branch point they are lost in round-off, which is
+// said.
+TEST(MonitorSensitivity, BesideTheOpeningOfACompliantWallIsThatOfOtherRuns) {
+  const std::string deck = R"toml(
+title = "An arch pressed by a compliant plate"
+material.steel = { E = 210000.0 }
+section.s = { shape = "rectangle", width = 10.0, height = 1.0 }
+point = { a = [-100.0, 0.0], b = [100.0, 0.0] }
+support = { a = ["x", "z"], b = ["x", "z"] }
+contact = { method = "compliant", law = { stiffness = 2.0 } }
+path = { step = 0.5, stop = { lambda = [-1.0, 60.0] }, watch = ["push"] }
+monitor = [{ name = "push", wall = "plate", component = "force-z", sign = -1 }, { name = "crown", at = "a:0.5", component = "z" }]
+member.a = { from = "a", to = "b", via = [0.0, 20.0], theory = "elastica", material = "steel", section = "s", elements = 24 }
+[[wall]]
+name = "plate"
+side = "above"
+profile = { type = "flat", z = 22.0 }
+motion = { z = -1.0 }
+)toml";
+  expect_agreement(deck, {{"contact.law.stiffness", 1e-3}, {"section.s.height", 1e-4}}, EventKind::branch_point);
 }
 
 }  // namespace arcwall::monitor_sensitivity_test
