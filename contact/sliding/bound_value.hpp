@@ -1,7 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cassert>
+#include <stdexcept>
 
 #include "contact/sliding/validity_bound.hpp"
 #include "core/observable.hpp"
@@ -26,7 +26,7 @@ class BoundValue final : public Observable {
   std::size_t bound_;
 };
 
-/// The number of the bound of a kind of which `holds` is true; there is one.
+/// The number of the bound of a kind of which `holds` is true. There is one, else throws std::logic_error.
 template <class Bound, class Holds>
 std::size_t bound_number(const SlidingContactLayout& on, const Holds& holds) {
   const auto is_it = [&](const auto& bound) {
@@ -34,7 +34,7 @@ std::size_t bound_number(const SlidingContactLayout& on, const Holds& holds) {
     return same != nullptr && holds(*same);
   };
   const auto found = std::find_if(on.bounds().begin(), on.bounds().end(), is_it);
-  assert(found != on.bounds().end());
+  if (found == on.bounds().end()) throw std::logic_error("a layout lacks a validity bound that its spans ask for");
   return static_cast<std::size_t>(found - on.bounds().begin());
 }
 

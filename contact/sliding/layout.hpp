@@ -27,9 +27,9 @@ class SlidingContactLayout final : public SlidingLayout {
   struct Point {
     std::size_t obstacle = 0;
     Span behind = Span::free;
-    Span before = Span::free;            ///< of a strand's first point: up to it from the strand's beginning
+    Span before = Span::free;            ///< up to a strand's first point, from the strand's beginning; else free
     bool neutral_behind = false;         ///< the free span behind it is a neutral one
-    bool neutral_before = false;         ///< of a strand's first point: the free span before it is
+    bool neutral_before = false;         ///< up to a strand's first point: the free span before it is; else false
     std::optional<std::size_t> pinch{};  ///< that it is at, by its number in the setting: it touches two obstacles
 
     /// Of a point that waits for its first touch: the elements that the part which it divides has without it. 0: it

@@ -188,6 +188,16 @@ std::optional<double> LayoutEdit::elements_to_point(Index strand, double place) 
   return nearest;
 }
 
+namespace {
+
+// Of a point that is not its strand's first.
+void begins_nothing(SlidingContactLayout::Point& point) {
+  point.before = Span::free;
+  point.neutral_before = false;
+}
+
+}  // namespace
+
 std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elements_behind) {
   std::vector<MeshSegment>& in_strand = elements[static_cast<std::size_t>(entry.strand)];
   const std::size_t place = part_at(entry.strand, entry.s).place;
@@ -197,9 +207,13 @@ std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elem
   while (k < points.size() &&
          (strands[k] < entry.strand || (strands[k] == entry.strand && s[static_cast<Index>(k)] < entry.s)))
     ++k;
-  if (k < points.size() && strands[k] == entry.strand) points[k].neutral_before = false;
-  if (k > 0 && strands[k - 1] == entry.strand) points[k - 1].neutral_behind = false;
-  insert_at(points, k, entry.point);
+  SlidingContactLayout::Point point = entry.point;
+  if (k < points.size() && strands[k] == entry.strand) begins_nothing(points[k]);
+  if (k > 0 && strands[k - 1] == entry.strand) {
+    points[k - 1].neutral_behind = false;
+    begins_nothing(point);
+  }
+  insert_at(points, k, point);
   insert_at(strands, k, entry.strand);
   insert_at(closed, k, static_cast<std::uint8_t>(entry.closed));
   insert_at(forces, k, entry.force);
@@ -228,9 +242,14 @@ void LayoutEdit::settle_undivided(Index strand, std::size_t place) {
   set_undivided(run, all);
 }
 
+// What is before a strand's first point vanishes with it; otherwise the span behind a point does.
 void LayoutEdit::erase(std::size_t point, int of_both) {
   const std::size_t before = segment_before(point);
   const Index strand = strands[point];
+  if (is_first_of_strand(point) && point + 1 < points.size() && strands[point + 1] == strand) {
+    points[point + 1].before = points[point].behind;
+    points[point + 1].neutral_before = points[point].neutral_behind;
+  }
   std::vector<MeshSegment>& in_strand = elements[static_cast<std::size_t>(strand)];
   int all = undivided(strand, run_around(strand, before));
   if (!points[point].waits()) {
@@ -251,7 +270,6 @@ void LayoutEdit::press_up_to_end(std::size_t point, bool last, int elements_of_p
   const Index strand = strands[point];
   const std::size_t obstacle = points[point].obstacle, inner = last ? point - 1 : point + 1;
   const bool is_alone = inner >= points.size() || strands[inner] != strand;  // also of the first point
-  if (!is_alone && !last) points[inner].before = Span::pressed;
   erase(point, elements_of_part);
   if (is_alone) set_lying(strand, obstacle);
 }

@@ -1,7 +1,6 @@
 #include "contact/sliding/shrinking.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -44,10 +43,10 @@ Index named(const CurvatureBound& bound, Index) { return static_cast<Index>(boun
 Index named(const PressureBound&, Index guard) { return guard; }
 Index named(const PullingJumpBound&, Index guard) { return guard; }
 
-// The number of the bound of a kind that is nearest a coordinate.
+// The number of the bound of a kind that is nearest a coordinate; empty if there is none.
 template <class Bound>
-std::size_t nearest(const SlidingContactLayout& on, const Vector& s, double place) {
-  std::size_t nearest = on.bounds().size();
+std::optional<std::size_t> nearest(const SlidingContactLayout& on, const Vector& s, double place) {
+  std::optional<std::size_t> nearest;
   double least = infinity;
   for (std::size_t i = 0; i < on.bounds().size(); ++i) {
     const auto* bound = as<Bound>(*on.bounds()[i]);
@@ -55,7 +54,6 @@ std::size_t nearest(const SlidingContactLayout& on, const Vector& s, double plac
     least = std::abs(place_of(*bound, on, s) - place);
     nearest = i;
   }
-  assert(nearest < on.bounds().size());
   return nearest;
 }
 
@@ -67,10 +65,11 @@ Transition back_to(const SlidingSetting& setting, const SlidingState& at, const 
   const auto on = layout_of(edit);
   State guess = mapped_onto(setting, at, edit, on);
   const auto contacts = static_cast<Index>(guess.active_set.size());
-  const std::size_t first = nearest<Bound>(*on, edit.s, places.front());
-  Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, first), change, std::move(guess));
+  const auto first = nearest<Bound>(*on, edit.s, places.front());
+  if (!first) return unsupported("spans join there in a way that is not modelled");
+  Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, *first), change, std::move(guess));
   for (const double place : places) {
-    const std::size_t bound = nearest<Bound>(*on, edit.s, place);
+    const std::size_t bound = nearest<Bound>(*on, edit.s, place).value();
     const Index name = named(static_cast<const Bound&>(*on->bounds()[bound]), contacts + static_cast<Index>(bound));
     auto& named_before = transition.contacts;
     if (std::find(named_before.begin(), named_before.end(), name) == named_before.end()) named_before.push_back(name);
@@ -116,8 +115,8 @@ Transition joined(const SlidingSetting& setting, const SlidingState& at, const P
     const std::size_t obstacle = edit.points[*k].obstacle;
     const bool before = at.layout.span_before(*k) == Span::pressed;
     const bool behind = at.layout.points()[*k + 1].behind == Span::pressed;
+    edit.points[*k].behind = Span::pressed;
     if (behind) {
-      edit.points[*k].behind = Span::pressed;
       edit.erase(*k + 1, edit.elements_behind(*k + 1) + (before ? 0 : 1));
     }
     if (before) edit.erase(*k, edit.elements_before(*k) + (behind ? edit.elements_behind(*k) : 1));

@@ -182,7 +182,7 @@ void erase_before_end(const SlidingSetting& setting, const StrandEnd& end, bool 
     const double from = end.last ? edit.place(inner) : 0.0;
     const double to = end.last ? setting.body.length(end.strand) : edit.place(inner);
     elements = elements_asked(setting.body, end.strand, from, to, 2);
-    if (end.last) edit.points[inner].behind = Span::free;
+    edit.points[end.last ? inner : point].behind = Span::free;
   }
   edit.erase(point, elements);
 }
@@ -287,6 +287,7 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
     const std::size_t point = (*tail)->point();
     const auto [strand, last] = std::pair((*tail)->strand(), (*tail)->last());
     const Span inner = last ? at.layout.span_before(point) : at.layout.points()[point].behind;
+    if (ends.empty()) is_pressed = inner == Span::pressed;
     lay = lay || at.layout.span_at_end(strand, last) != Span::free;
     const StrandEnd of{.strand = strand, .last = last};
     const auto found = std::find_if(setting.free_ends.begin(), setting.free_ends.end(), [&](const FreeEnd& contact) {
@@ -300,8 +301,7 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
     ends.push_back(end);
     edit.end_forces[end] += edit.forces[point];
     edit.ends_closed[end] = 1;
-    is_pressed = inner == Span::pressed;
-    if (is_pressed) {
+    if (inner == Span::pressed) {
       edit.press_up_to_end(point, last, last ? edit.elements_before(point) : edit.elements_behind(point));
     } else {
       erase_before_end(setting, of, inner == Span::flat, point, edit);
