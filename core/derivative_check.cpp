@@ -80,7 +80,10 @@ double check_gradient(const Observable& observable, const State& state, double s
     difference = std::max(difference, std::abs(central_difference(value, state, i, step) - analytic));
     scale = std::max(scale, std::abs(analytic));
   }
-  return relative(difference, scale);
+  const Direction along{.dx = Vector::LinSpaced(state.x.size(), -1.0, 1.0), .dlambda = 1.0};
+  const double parts = row.dx.cwiseAbs().dot(along.dx.cwiseAbs()) + std::abs(row.dlambda);
+  return std::max(relative(difference, scale),
+                  relative(std::abs(observable.rate(state, along) - apply(row, along)), parts));
 }
 
 }  // namespace arcwall

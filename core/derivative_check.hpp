@@ -22,7 +22,8 @@ struct DerivativeReport {
 /// the energy only without multipliers, where F is its gradient.
 DerivativeReport check_derivatives(const UnilateralSystem& system, const State& state, double step = 1e-4);
 
-/// Returns the largest difference between gradient and central differences, relative to the gradient's largest entry.
+/// Returns the largest difference between gradient and central differences, relative to the gradient's largest entry,
+/// or that between rate and gradient along a direction, relative to the sum of its parts if that is larger.
 double check_gradient(const Observable& observable, const State& state, double step = 1e-4);
 
 }  // namespace arcwall

@@ -9,7 +9,7 @@ namespace arcwall {
 
 /// Evaluates a scalar function of the state: a monitor, the quantity of a stop bound, the control of a path.
 ///
-/// gradient() is the derivative of value(); check_gradient() in core/derivative_check.hpp tests it.
+/// gradient() is the derivative of value(); check_gradient() in core/derivative_check.hpp tests it, and rate().
 class Observable {
  public:
   virtual ~Observable() = default;
@@ -19,6 +19,11 @@ class Observable {
 
   /// Returns the derivative by (x, λ); dx has state.x.size() entries.
   virtual Row gradient(const State& state) const = 0;
+
+  /// Returns the derivative along a direction. Overridden where one direction costs less than all.
+  virtual double rate(const State& state, const Direction& direction) const {
+    return apply(gradient(state), direction);
+  }
 };
 
 /// Evaluates the load factor λ.
@@ -39,6 +44,9 @@ class ScaledObservable final : public Observable {
     row.dx *= factor_;
     row.dlambda *= factor_;
     return row;
+  }
+  double rate(const State& state, const Direction& direction) const override {
+    return factor_ * quantity_->rate(state, direction);
   }
 
  private:

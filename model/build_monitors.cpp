@@ -105,6 +105,9 @@ class UsersX final : public Observable {
     row.dlambda *= frame_.factor();
     return row;
   }
+  double rate(const State& state, const Direction& direction) const override {
+    return frame_.factor() * here_->rate(state, direction);
+  }
 
  private:
   std::shared_ptr<const Observable> here_;

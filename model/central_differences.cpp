@@ -5,8 +5,13 @@
 
 namespace arcwall {
 
+namespace {
+
+double step_of_lambda(const State& state) { return 1e-6 * std::max(1.0, std::abs(state.lambda)); }
+
+}  // namespace
+
 Row central_differences(const State& state, const Vector& steps, const std::function<double(const State&)>& value) {
-  constexpr double step_of_lambda = 1e-6;
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   State moved = state;
   const auto slope = [&](double& of, double step) {
@@ -20,8 +25,24 @@ Row central_differences(const State& state, const Vector& steps, const std::func
   };
   for (Index i = 0; i < steps.size(); ++i)
     if (steps[i] > 0.0) row.dx[i] = slope(moved.x[i], steps[i]);
-  row.dlambda = slope(moved.lambda, step_of_lambda * std::max(1.0, std::abs(state.lambda)));
+  row.dlambda = slope(moved.lambda, step_of_lambda(state));
   return row;
+}
+
+double central_difference_along(const State& state, const Direction& direction, const Vector& steps,
+                                const std::function<double(const State&)>& value) {
+  const auto slope = [&](const Direction& along, double h) {
+    return (value(moved(state, along, h)) - value(moved(state, along, -h))) / (2.0 * h);
+  };
+  double most_steps = 0.0;
+  for (Index i = 0; i < steps.size(); ++i)
+    if (steps[i] > 0.0) most_steps = std::max(most_steps, std::abs(direction.dx[i]) / steps[i]);
+  double sum = 0.0;
+  if (most_steps > 0.0)
+    sum += slope({.dx = (steps.array() > 0.0).select(direction.dx, 0.0), .dlambda = 0.0}, 1.0 / most_steps);
+  if (direction.dlambda != 0.0)
+    sum += direction.dlambda * slope({.dx = Vector::Zero(state.x.size()), .dlambda = 1.0}, step_of_lambda(state));
+  return sum;
 }
 
 }  // namespace arcwall

@@ -10,4 +10,9 @@ namespace arcwall {
 /// step is 0 has no part in the value. λ is moved by 1e-6 of itself, at least of 1.
 Row central_differences(const State& state, const Vector& steps, const std::function<double(const State&)>& value);
 
+/// The derivative of the same value along a direction: by one difference in which no unknown moves by more than its
+/// step, and one by λ.
+double central_difference_along(const State& state, const Direction& direction, const Vector& steps,
+                                const std::function<double(const State&)>& value);
+
 }  // namespace arcwall

@@ -27,4 +27,10 @@ Row ContactEdge::gradient(const State& state) const {
   return central_differences(state, body_.steps(state), [&](const State& moved) { return value(moved); });
 }
 
+double ContactEdge::rate(const State& state, const Direction& direction) const {
+  if (!std::isfinite(value(state))) return 0.0;
+  return central_difference_along(state, direction, body_.steps(state),
+                                  [&](const State& moved) { return value(moved); });
+}
+
 }  // namespace arcwall

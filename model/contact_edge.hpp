@@ -23,6 +23,7 @@ class ContactEdge final : public Observable {
 
   double value(const State& state) const override;
   Row gradient(const State& state) const override;
+  double rate(const State& state, const Direction& direction) const override;
 
  private:
   const ContactQuery& contacts_;

@@ -157,10 +157,21 @@ double MemberExtreme::again(const State& state, const Found& found) const {
   return fraction_at(stretch, xi);
 }
 
-Row MemberExtreme::gradient(const State& state) const {
-  const Found found = extreme(state);
+Vector MemberExtreme::steps_of(const State& state, const Found& found) const {
   Vector steps = Vector::Zero(state.x.size());
   for (const ElementsOfMember::Step& step : member_->steps(state, found.element)) steps[step.unknown] = step.size;
+  return steps;
+}
+
+double MemberExtreme::rate(const State& state, const Direction& direction) const {
+  const Found found = extreme(state);
+  return central_difference_along(state, direction, steps_of(state, found),
+                                  [&](const State& moved) { return again(moved, found); });
+}
+
+Row MemberExtreme::gradient(const State& state) const {
+  const Found found = extreme(state);
+  const Vector steps = steps_of(state, found);
   return central_differences(state, steps, [&](const State& moved) { return again(moved, found); });
 }
 
@@ -191,6 +202,13 @@ double MemberMean::value(const State& state) const {
   double sum = 0.0;
   for (Index element = 0; element < member_->elements(state); ++element) sum += part_of(state, element);
   return sum;
+}
+
+double MemberMean::rate(const State& state, const Direction& direction) const {
+  Vector steps = Vector::Zero(state.x.size());
+  for (Index element = 0; element < member_->elements(state); ++element)
+    for (const ElementsOfMember::Step& step : member_->steps(state, element)) steps[step.unknown] = step.size;
+  return central_difference_along(state, direction, steps, [&](const State& moved) { return value(moved); });
 }
 
 Row MemberMean::gradient(const State& state) const {

@@ -54,6 +54,7 @@ class MemberExtreme final : public Observable {
 
   double value(const State& state) const override;
   Row gradient(const State& state) const override;
+  double rate(const State& state, const Direction& direction) const override;
 
  private:
   struct Found {
@@ -68,6 +69,7 @@ class MemberExtreme final : public Observable {
   };
   Found extreme(const State& state) const;
   void look_in(const MemberStretch& stretch, Found& extreme, Index element, std::size_t number) const;
+  Vector steps_of(const State& state, const Found& found) const;
   double again(const State& state, const Found& found) const;
 
   std::shared_ptr<const ElementsOfMember> member_;
@@ -85,6 +87,7 @@ class MemberMean final : public Observable {
 
   double value(const State& state) const override;
   Row gradient(const State& state) const override;
+  double rate(const State& state, const Direction& direction) const override;
 
  private:
   double part_of(const State& state, Index element) const;
@@ -115,6 +118,9 @@ class GreatestOfMembers final : public Observable {
 
   double value(const State& state) const override { return shown_[greatest(state)]->value(state); }
   Row gradient(const State& state) const override { return shown_[greatest(state)]->gradient(state); }
+  double rate(const State& state, const Direction& direction) const override {
+    return shown_[greatest(state)]->rate(state, direction);
+  }
 
  private:
   std::size_t greatest(const State& state) const;

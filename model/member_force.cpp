@@ -17,6 +17,10 @@ Row MemberForce::gradient(const State& state) const {
   return central_differences(state, steps(state), [&](const State& moved) { return value(moved); });
 }
 
+double MemberForce::rate(const State& state, const Direction& direction) const {
+  return central_difference_along(state, direction, steps(state), [&](const State& moved) { return value(moved); });
+}
+
 ShapePoint TiedMemberForce::place(const State& state) const {
   const int elements = member_.elements();
   const int before = std::clamp(static_cast<int>(std::lround(fraction_ * elements)) - 1, 0, elements - 1);

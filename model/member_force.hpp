@@ -18,6 +18,7 @@ class MemberForce : public Observable {
 
   double value(const State& state) const final;
   Row gradient(const State& state) const final;
+  double rate(const State& state, const Direction& direction) const final;
 
  protected:
   explicit MemberForce(What what) : what_(what) {}

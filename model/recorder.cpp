@@ -53,7 +53,7 @@ std::optional<RecordRates> rates_along(const Model* model, const State& state, c
   if (model == nullptr || tangent.dx.size() != state.x.size() || state.x.size() == 0) return std::nullopt;
   RecordRates rates{.lambda = tangent.dlambda};
   for (const MonitorColumn& monitor : model->monitors())
-    rates.monitors.push_back(apply(monitor.quantity->gradient(state), tangent));
+    rates.monitors.push_back(monitor.quantity->rate(state, tangent));
   return rates;
 }
 

@@ -135,7 +135,7 @@ bool holds(const TraceTools& tools, const Transition& transition, const State& f
 // What the corrector arrived at, with its count.
 PathPoint entered_point(TraceTools& tools, const Transition& transition, const Ahead& ahead, CorrectorResult result,
                         double arc) {
-  if (transition.quantity && apply(transition.quantity->gradient(result.state), result.tangent) < 0.0)
+  if (transition.quantity && transition.quantity->rate(result.state, result.tangent) < 0.0)
     result.tangent = reversed(std::move(result.tangent));
   const Direction forward = transition.quantity ? result.tangent : ahead.along;
   PathPoint to = path_point(tools.system, ahead.metric, std::move(result), forward);
@@ -160,7 +160,7 @@ bool lies_back(const Transition& transition, const PathPoint& from, const PathPo
 std::optional<PathPoint> with_span(TraceTools& tools, const Transition& transition, const Metric& metric,
                                    const PathPoint& from, double length) {
   constexpr double sure = 0.25;  // of the step
-  const double rate = apply(transition.quantity->gradient(from.state), from.tangent);
+  const double rate = transition.quantity->rate(from.state, from.tangent);
   const double s = (length - transition.quantity->value(from.state)) / rate;
   const State guess = moved(from.state, from.tangent, s);
   CorrectorResult result =
@@ -213,7 +213,7 @@ bool begins_within(const System& system, const Observable& length, const PathPoi
 bool value_lies_behind_turn(const std::vector<TargetValue>& targets, const PathPoint& change, const State& behind) {
   return std::any_of(targets.begin(), targets.end(), [&](const TargetValue& target) {
     return lies_between(target, change.state, behind) &&
-           excess(target, change.state) * apply(target.quantity->gradient(change.state), change.tangent) >= 0.0;
+           excess(target, change.state) * target.quantity->rate(change.state, change.tangent) >= 0.0;
   });
 }
 

@@ -187,8 +187,7 @@ std::optional<std::vector<EventEquation>> turning_equation(const SystemFamily::M
         rows_differenced_along(metric, at.state, *t, Differences::simple,
                                [&](const State& state) { return at.watched->gradient(state); }));
     for (const WeightedMember& sample : samples)
-      equation.by_kappa +=
-          border.scale * sample.weight * apply(sample.member.watched->gradient(sample.member.state), *t);
+      equation.by_kappa += border.scale * sample.weight * sample.member.watched->rate(sample.member.state, *t);
   }
   return std::vector{std::move(equation)};
 }

@@ -413,7 +413,7 @@ double EventDerivatives::turning_beside(Corrector& corrector, const Observable& 
   const CorrectorResult there =
       corrector.inspect(arrived.state, metric_, tangent_);  // whose tangent is that of the end
   if (!there.converged()) return std::nan("");
-  const double rate = apply(turning.gradient(there.state), there.tangent);
+  const double rate = turning.rate(there.state, there.tangent);
   return metric_.inner(there.tangent, tangent_) < 0.0 ? -rate : rate;
 }
 
@@ -438,8 +438,8 @@ EventDerivatives::Settled EventDerivatives::turning_rate(const Direction& d, con
   return with_best_step(step_on_one_piece(d, longest_step), halvings, [&](double h) {
     const auto change = along_path(-second_derivative(tangent_, d, h) - more);
     if (!change) return std::nan("");
-    const double of_gradient = difference_along(
-        metric_, state_, d, h, [&](const State& at) { return apply(watched_->gradient(at), tangent_); });
+    const double of_gradient =
+        difference_along(metric_, state_, d, h, [&](const State& at) { return watched_->rate(at, tangent_); });
     return apply(gradient, *change) + of_gradient + more_of_gradient;
   });
 }
@@ -465,7 +465,7 @@ EventDerivatives::TurnedBy EventDerivatives::turned_by(const Direction& response
     const double there = turning_beside(corrector, *sample.watched, moved(sample.state, response, sample.offset), 0.0);
     rate.value += sample.weight * there;
     coarse += sample.coarse_weight * there;
-    of_gradient += sample.weight * apply(sample.watched->gradient(sample.state), tangent_);
+    of_gradient += sample.weight * sample.watched->rate(sample.state, tangent_);
   }
   rate.off = std::abs(rate.value - coarse);
   const Direction stays{.dx = Vector::Zero(response.dx.size()), .dlambda = 0.0};
@@ -476,7 +476,7 @@ EventDerivatives::TurnedBy EventDerivatives::turned_by(const Direction& response
   const Vector more = rate_along(samples, stays, along_tangent);
   Settled here = turning_rate(response, more, of_gradient);
   const auto change = along_path(more - rate_along(samples, stays, along_tangent, true));
-  here.off += change ? std::abs(apply(watched_->gradient(state_), *change)) : infinity;
+  here.off += change ? std::abs(watched_->rate(state_, *change)) : infinity;
   return {.equilibria = turned(turning_along_, rate, response),
           .equations = turned(turning_here_, here, response),
           .rate = rate};

@@ -31,7 +31,7 @@ std::optional<EventPlace> earliest(const TraceTools& tools, const std::vector<in
   }
   for (std::size_t i = 0; i < tools.options.target_values.size(); ++i) {
     const TargetValue& target = tools.options.target_values[i];
-    const auto rate = [&](const PathPoint& p) { return apply(target.quantity->gradient(p.state), p.tangent); };
+    const auto rate = [&](const PathPoint& p) { return target.quantity->rate(p.state, p.tangent); };
     const double v0 = excess(target, segment.from().state), v1 = excess(target, segment.to().state);
     const double noise = excess_noise(target, v0, v1);
     if (std::abs(v0) <= noise && std::abs(v1) <= noise) continue;  // it stays at the value

@@ -19,7 +19,7 @@ std::optional<PathPoint> point_on_value(TraceTools& tools, const Metric& metric,
   PathPoint at = near;
   for (int i = parts - 1; i >= 0; --i) {
     const double value = target.value - missing * i / parts;
-    const double rate = apply(target.quantity->gradient(at.state), at.tangent);
+    const double rate = target.quantity->rate(at.state, at.tangent);
     const double s = (value - target.quantity->value(at.state)) / rate;
     const State guess = moved(at.state, at.tangent, s);
     CorrectorResult result =
@@ -40,7 +40,7 @@ std::optional<ValueBetween> first_value_between(const std::vector<TargetValue>& 
   for (std::size_t i = 0; i < targets.size(); ++i) {
     if (!lies_between(targets[i], behind.state, ahead)) continue;
     const double v0 = excess(targets[i], behind.state), v1 = excess(targets[i], ahead);
-    const double rate = apply(targets[i].quantity->gradient(behind.state), behind.tangent);
+    const double rate = targets[i].quantity->rate(behind.state, behind.tangent);
     if (v0 * rate >= 0.0) continue;
     const ValueBetween found{.which = i, .part = v0 / (v0 - v1), .distance = -v0 / rate};
     if (!first || found.part < first->part) first = found;

@@ -251,7 +251,7 @@ LocatedEvent locate_value(TraceTools& tools, const StepOrigin& origin, const Eve
   const double v0 = excess(target, origin.point().state);
   const auto stays = [&](const PathPoint& point) {
     const double v = excess(target, point.state), noise = excess_noise(target, v0, v);
-    const double rate = apply(target.quantity->gradient(point.state), point.tangent);
+    const double rate = target.quantity->rate(point.state, point.tangent);
     return std::abs(v) <= noise && std::abs(rate) * segment.length() <= noise;
   };
   const PathPoint& reached = at.point ? *at.point : to;
