@@ -516,7 +516,7 @@ profile = { type = "line", z = -0.7237534713191682, slope = -0.01989879957722925
 // A chain of weight q on the sea floor, whose end is lifted: beside the touchdown it bends within √(EI/N), and bears q
 // √(EI/N) there. Elements that are much longer let the wall pull at some lift, which ends the path and names
 // how many follow. With these the path goes on beyond, and no wall pulls.
-TEST(LiftingParts, EndWhereACoarseMeshLetsTheWallPull) {
+TEST(LiftingParts, EndWhereACoarseMeshLetsTheWallPullSlow) {
   const std::string chain = R"toml(
 title = "Chain lifted off the sea floor"
 material.chain = { E = 1.0e6 }

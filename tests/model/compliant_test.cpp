@@ -458,7 +458,7 @@ component = "force-z"
 }  // namespace
 
 // A touch, a spread, and a snap. On a softer bed the column buckles sideways before that.
-TEST(CompliantWalls, PressAnElasticaAsShootingSays) {
+TEST(CompliantWalls, PressAnElasticaAsShootingSaysSlow) {
   for (const double stiffness : {500.0, 2000.0}) {
     SCOPED_TRACE(stiffness);
     const ShotEvents shot = events_of_shot(ShotColumn(stiffness));
@@ -487,7 +487,7 @@ double force_of_bed(const std::string& theory, const std::string& surface, int e
 
 // The edges of contact are inside elements. Differences from a mesh of 96: those of slender beams are at once beside
 // what the ends of contact in this or that element make.
-TEST(CompliantWalls, HaveForcesOfOrderTwoInTheMesh) {
+TEST(CompliantWalls, HaveForcesOfOrderTwoInTheMeshSlow) {
   for (const std::string theory : {"\"euler-bernoulli\"", "\"elastica\"\norder = 4", "\"elastica\"\norder = 6",
                                    "\"reissner\"\norder = 1", "\"reissner\"\norder = 2"})
     for (const std::string surface : {"axis", "face"}) {
@@ -503,7 +503,7 @@ TEST(CompliantWalls, HaveForcesOfOrderTwoInTheMesh) {
 // The load of a snap on walls that are ten times as stiff, twice: how far it is from that of rigid walls falls as the
 // root of the compliance, as the length does in which contact turns the column. Forces on a rigid floor at the ends of
 // a zone have a lever of that length alone: k^(−3/4).
-TEST(CompliantWalls, TendToRigidOnes) {
+TEST(CompliantWalls, TendToRigidOnesSlow) {
   const auto run_of = [](const std::string& file, std::vector<std::string> assignments) {
     assignments.insert(assignments.end(), {"path.jumps=false", "path.stop.event=\"limit-point\""});
     Session run = open_session(std::string(EXAMPLES) + "/" + file, assignments);

@@ -168,7 +168,7 @@ std::string clamped_column(int elements) {
 // 22 elements, and the path went on into its mirror image. Where ∂(gap, slope; z, slope at the end) by the reaction,
 // the moment at the first end, the force and the place of the touch is singular on the symmetric branch, by shooting
 // with the extensible elastica, apart from this program.
-TEST(ContactMeshes, ATouchThatSlidesToTheMiddleComesToAPitchfork) {
+TEST(ContactMeshes, ATouchThatSlidesToTheMiddleComesToAPitchforkSlow) {
   constexpr double pitchfork = 2.835014482;
   for (const int elements : {22, 24, 44, 64}) {
     SCOPED_TRACE(elements);
@@ -274,7 +274,7 @@ law = { direction = "x", displacement = [-1.0, -0.01, 0.0, 1.0], force = [-1e-6,
 
 // An arch lies flat on a plate, whose zone buckles off it where N d² = 4 π² EI, d its length. A peg below that is not
 // touched has an open point inside the zone, whose slope holds nothing.
-TEST(ContactMeshes, APegThatIsNotTouchedHoldsNoZone) {
+TEST(ContactMeshes, APegThatIsNotTouchedHoldsNoZoneSlow) {
   constexpr double EI = 210000.0 * 10.0 / 12.0, radius = (100.0 * 100.0 + 6.0 * 6.0) / 12.0;
   const double length = 2.0 * radius * std::asin(100.0 / radius);
   for (const std::string elements : {"40", "80"}) {

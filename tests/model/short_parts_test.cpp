@@ -75,7 +75,7 @@ Traced traced(const std::string& deck) {
 }
 
 // With the length that it has at first the one part lies beyond the load at which the other begins.
-TEST(ShortParts, AreBegunShorterWhereAnotherContactSpreadsSoon) {
+TEST(ShortParts, AreBegunShorterWhereAnotherContactSpreadsSoonSlow) {
   const Traced coarse = traced(toggle(28)), fine = traced(toggle(56)), finest = traced(toggle(112));
   const std::vector<EventKind> expected{EventKind::contact_closes, EventKind::contact_closes,
                                         EventKind::contact_spreads, EventKind::contact_spreads};
@@ -217,7 +217,7 @@ std::string column_with_a_load_across(int elements) {
 // A pressed part vanishes beside an arch, which closes a little later. The touch that is left of the part was not found
 // from every step, and the path leapt over it to where the arch has closed, too. Both loads are those of finer meshes
 // and shorter steps; along the path before it the part's length goes to zero linearly, at the first of them.
-TEST(ShortParts, LeaveATouchBesideAnArchThatClosesLater) {
+TEST(ShortParts, LeaveATouchBesideAnArchThatClosesLaterSlow) {
   for (const int elements : {72, 144})
     for (const std::string step : {"0.05", "0.03", "0.0125", "0.005"}) {
       SCOPED_TRACE(std::to_string(elements) + " elements, steps of " + step);

@@ -187,7 +187,7 @@ TEST(PulledSwitch, PeelsOffInStepsOfItsMotion) {
 // Glue that softens holds the beam on its stop: it peels off at a maximum of λ and comes to rest at a minimum. By
 // shooting from the edge of contact, in small slopes. While the beam lies flat its pull moves nothing, and no scale of
 // λ is known.
-TEST(PulledSwitch, PeelsOffGlueThroughTwoLimitPoints) {
+TEST(PulledSwitch, PeelsOffGlueThroughTwoLimitPointsSlow) {
   std::string deck = pulled_switch;
   deck += R"toml(
 [[spring]]

@@ -44,7 +44,7 @@ std::string stage(const std::string& name, const std::string& drives, double ste
 
 // Heated by T its ends slip over the length EA α T/(μ w) = 2 m each, which grow by α T · 2 m/2; cooled by T half of
 // that takes itself back, and the middle bears nothing. Half of it at a plane of symmetry does the same.
-TEST(RoughFloor, ARailIsHeatedAndCooled) {
+TEST(RoughFloor, ARailIsHeatedAndCooledSlow) {
   const std::string heat = "[[load]]\non = \"rail\"\ntemperature = 1.0\n",
                     stages = stage("heat", "load.1", 0.01, -1.0, 0.5) + stage("cool", "load.1", -0.01, -0.5, 1.0);
   for (const int elements : {20, 40, 60}) {
@@ -61,7 +61,7 @@ TEST(RoughFloor, ARailIsHeatedAndCooled) {
 
 // Pulled at one end by F = 40 kN it slips over F/(μ w) = 8 m and comes out by F²/(2 EA μ w) = 0.08 mm; pushed back by
 // as much it comes to the same on the other side.
-TEST(RoughFloor, ARailIsPulledAndPushed) {
+TEST(RoughFloor, ARailIsPulledAndPushedSlow) {
   const std::string pull = "[[load]]\nat = \"b\"\nforce = [400.0, 0.0]\n",
                     stages = stage("pull", "load.1", 1.0, -1.0, 100.0) + stage("push", "load.1", -1.0, -200.0, 1.0);
   for (const int elements : {30, 40}) {

@@ -121,7 +121,7 @@ TEST_F(SweepRecordsTest, WhatHinderedACaseIsNoResult) {
 }
 
 // Two hundred by two hundred cases: tables have every case, the page half of them, each as it is. λ is e + 100 a.
-TEST_F(SweepRecordsTest, OfManyCasesSomeAreDrawnAsTheyAre) {
+TEST_F(SweepRecordsTest, OfManyCasesSomeAreDrawnAsTheyAreSlow) {
   const Outcome made = shell(
       "mkdir -p study/results; python3 -c '\nimport json\n"
       "cases, results = open(\"study/cases.jsonl\", \"w\"), open(\"study/results/0-of-1.jsonl\", \"w\")\n"

@@ -47,7 +47,7 @@ TEST(EnergyBalance, RunsWithFrictionAreConfirmed) {
 
 // A strip that is hardly heated lies on its floor. Its energies are sums of great parts that cancel, of which those of
 // friction are small: round-off of 9e-13 is no finding. At 0.4 degrees differences of rounded energies agree by chance.
-TEST(EnergyBalance, RoundOffOfLargePartsIsNoFinding) {
+TEST(EnergyBalance, RoundOffOfLargePartsIsNoFindingSlow) {
   const std::string strip = R"toml(
 title = "strip"
 material.m = { E = 70000000000.0, nu = 0.3, expansion = 1e-5 }
@@ -66,7 +66,7 @@ path = { step = 0.05, stop = { lambda = [-9.0, 1.0] } }
 
 // A thin wire is pushed without contact, and into the first bend. Within a thousandth of its path the hub alone would
 // press its element to many times its buckling load.
-TEST(EnergyBalance, ThinWiresAreConfirmed) {
+TEST(EnergyBalance, ThinWiresAreConfirmedSlow) {
   const auto& devices = example_devices();
   const auto wire = std::find_if(devices.begin(), devices.end(),
                                  [](const ExampleDeck& device) { return device.name == "guidewire-friction"; });
