@@ -312,8 +312,7 @@ SectionQuantity pressure_of(const deck::Foundation& foundation) {
 // A member and the quantities of which a monitor shows the greatest.
 struct AlongMember {
   std::string member{};
-  std::vector<SectionQuantity> quantities{};
-  double negligible = 0.0;
+  SectionQuantities of{};
 };
 
 // What forces and moments contribute to the stress in an outer fibre.
@@ -331,17 +330,20 @@ AlongMember stresses_in(const deck::Deck& deck, const Measured& from, const deck
   const deck::Section& section = *deck::find(deck.sections, member.section);
   const OuterFibre middle = outer_fibre(section, 0.5, unit);
   const double force = from.structure.force_roundoff(), moment = force * from.structure.length_scale();
-  AlongMember along{.member = member.name, .negligible = middle.by_force * force + middle.by_moment * moment};
+  const auto* const table = std::get_if<deck::SectionTable>(&section.shape);
+  AlongMember along{.member = member.name,
+                    .of = {.kinks = table != nullptr ? table->at : std::vector<double>{},
+                           .negligible = middle.by_force * force + middle.by_moment * moment}};
   const auto fibre_at = [section, middle, unit, tapers = tapers(section)](const MemberStretch& at, double xi) {
     return tapers ? outer_fibre(section, std::clamp(at.from + xi * (at.to - at.from), 0.0, 1.0), unit) : middle;
   };
   if (member.theory == Theory::truss) {
-    along.quantities.emplace_back(
+    along.of.quantities.emplace_back(
         [=](const MemberStretch& at, double xi) { return middle.by_force * at.axial_force(xi); });
     return along;
   }
   for (const double side : {1.0, -1.0})
-    along.quantities.emplace_back([=](const MemberStretch& at, double xi) {
+    along.of.quantities.emplace_back([=](const MemberStretch& at, double xi) {
       const OuterFibre fibre = fibre_at(at, xi);
       return fibre.by_force * at.axial_force(xi) + side * fibre.by_moment * at.moment(xi);
     });
@@ -352,11 +354,11 @@ AlongMember stresses_in(const deck::Deck& deck, const Measured& from, const deck
 std::vector<AlongMember> along_members(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor) {
   if (monitor.component == deck::Component::max_moment)
     return {{.member = monitor.member,
-             .quantities = {moment_at},
-             .negligible = from.structure.force_roundoff() * from.structure.length_scale()}};
+             .of = {.quantities = {moment_at},
+                    .negligible = from.structure.force_roundoff() * from.structure.length_scale()}}};
   if (is_pressure(monitor.component)) {
     const auto& foundation = std::get<deck::Foundation>(deck::find(deck.springs, monitor.spring)->kind);
-    return {{.member = foundation.member, .quantities = {pressure_of(foundation)}}};
+    return {{.member = foundation.member, .of = {.quantities = {pressure_of(foundation)}}}};
   }
   std::vector<AlongMember> members;
   for (const deck::Member& member : deck.members) {
@@ -381,7 +383,7 @@ std::shared_ptr<const Observable> greatest(const deck::Deck& deck, const Measure
     const auto elements = from.body.elements(member);
     if (!elements) return nullptr;
     const auto of = [&](MemberExtreme::What part) -> std::shared_ptr<const Observable> {
-      return std::make_shared<MemberExtreme>(elements, along.quantities, which, part, along.negligible);
+      return std::make_shared<MemberExtreme>(elements, along.of, which, part);
     };
     values.push_back(of(MemberExtreme::What::value));
     shown.push_back(what == OfGreatest::value   ? values.back()
@@ -396,7 +398,7 @@ std::shared_ptr<const Observable> greatest(const deck::Deck& deck, const Measure
 std::shared_ptr<const Observable> mean(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor) {
   const AlongMember along = along_members(deck, from, monitor).front();
   auto elements = from.body.elements(member_index(from, along.member));
-  return elements ? std::make_shared<MemberMean>(std::move(elements), along.quantities.front()) : nullptr;
+  return elements ? std::make_shared<MemberMean>(std::move(elements), along.of.quantities.front()) : nullptr;
 }
 
 // --- the force of a spring ------------------------------------------------------------------------------------------
@@ -591,7 +593,7 @@ double roundoff_of(const deck::Deck& deck, const Measured& from, const MonitorCo
     double most = 0.0;
     if (const deck::Monitor* const monitor = deck::find(deck.monitors, column.name))
       for (const AlongMember& along : along_members(deck, from, *monitor))
-        most = std::max(most, of_forces * along.negligible);
+        most = std::max(most, of_forces * along.of.negligible);
     return most;
   }
   const deck::Dimension unit = dimension_of(column.component);

@@ -86,6 +86,18 @@ double fraction_at(const MemberStretch& stretch, double xi) {
   return std::clamp(stretch.from + xi * (stretch.to - stretch.from), 0.0, 1.0);
 }
 
+// The part from ξ = `from` to `to`, divided at the kinks in it.
+std::vector<double> between_kinks(const MemberStretch& stretch, const std::vector<double>& kinks, double from,
+                                  double to) {
+  std::vector<double> places{from};
+  for (const double kink : kinks) {
+    const double xi = (kink - stretch.from) / (stretch.to - stretch.from);
+    if (xi > from && xi < to) places.push_back(xi);
+  }
+  places.push_back(to);
+  return places;
+}
+
 }  // namespace
 
 void MemberExtreme::look_in(const MemberStretch& stretch, Found& extreme, Index element, std::size_t number) const {
@@ -106,14 +118,18 @@ void MemberExtreme::look_in(const MemberStretch& stretch, Found& extreme, Index 
                .xi = xi,
                .kind = kind};
   };
-  for (std::size_t i = 0; i < quantities_.size(); ++i) {
-    const auto f = [&](double xi) { return quantities_[i](stretch, xi); };
-    const std::vector<double> turning = turns(f, from, to);
-    consider(f(from), i, from, from > 0.0 ? Found::Kind::end : Found::Kind::node);
-    for (const double xi : turning) consider(f(xi), i, xi, Found::Kind::inside);
-    if (which_ == Which::least)
-      for (const double xi : zeros(f, from, to, turning)) consider(0.0, i, xi, Found::Kind::inside);
-    consider(f(to), i, to, to < 1.0 ? Found::Kind::end : Found::Kind::node);
+  const std::vector<double> smooth = between_kinks(stretch, of_.kinks, from, to);
+  for (std::size_t i = 0; i < of_.quantities.size(); ++i) {
+    const auto f = [&](double xi) { return of_.quantities[i](stretch, xi); };
+    consider(f(from), i, from, from > 0.0 ? Found::Kind::fixed : Found::Kind::node);
+    for (std::size_t part = 0; part + 1 < smooth.size(); ++part) {
+      const double begin = smooth[part], end = smooth[part + 1];
+      const std::vector<double> turning = turns(f, begin, end);
+      for (const double xi : turning) consider(f(xi), i, xi, Found::Kind::inside);
+      if (which_ == Which::least)
+        for (const double xi : zeros(f, begin, end, turning)) consider(0.0, i, xi, Found::Kind::inside);
+      consider(f(end), i, end, end < 1.0 ? Found::Kind::fixed : Found::Kind::node);
+    }
   }
 }
 
@@ -132,18 +148,19 @@ double MemberExtreme::value(const State& state) const {
   const Found found = extreme(state);
   const double value = found.value.value_or(0.0);
   if (what_ == What::value) return value;
-  return value > negligible_ || which_ == Which::least ? found.fraction : 0.0;
+  return value > of_.negligible || which_ == Which::least ? found.fraction : 0.0;
 }
 
 // What it was asked for at the place that was found, in a state beside it: a node goes along with the mesh, an end of
-// the member stays, and so does what turns, but for its fraction, which is that of the turn nearest to it.
+// the member stays, and so does what turns, but for its fraction, which is that of the turn nearest to it; so does a
+// kink of a section.
 double MemberExtreme::again(const State& state, const Found& found) const {
   std::vector<MemberStretch> stretches;
   member_->add_stretches(state, found.element, stretches);
   const MemberStretch& stretch = stretches[std::min(found.stretch, stretches.size() - 1)];  // a load may leave it
   double xi = found.xi;
-  if (found.kind == Found::Kind::end) xi = (found.fraction - stretch.from) / (stretch.to - stretch.from);
-  const SectionQuantity& quantity = quantities_[found.quantity];
+  if (found.kind == Found::Kind::fixed) xi = (found.fraction - stretch.from) / (stretch.to - stretch.from);
+  const SectionQuantity& quantity = of_.quantities[found.quantity];
   const bool is_zero = found.value == 0.0 && found.kind == Found::Kind::inside;
   if (what_ == What::value) return is_zero ? 0.0 : found.sign * quantity(stretch, xi);
   if (found.kind == Found::Kind::inside) {

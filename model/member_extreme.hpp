@@ -32,6 +32,13 @@ class ElementsOfMember {
 /// What a section carries, at ξ ∈ [0, 1] of a stretch.
 using SectionQuantity = std::function<double(const MemberStretch& stretch, double xi)>;
 
+/// Quantities of a member's sections.
+struct SectionQuantities {
+  std::vector<SectionQuantity> quantities{};
+  std::vector<double> kinks{};  ///< fractions of the member at which they may have kinks, ascending
+  double negligible = 0.0;      ///< up to this their absolute values are round-off
+};
+
 /// The greatest or least absolute value of some quantities along a whole member, between nodes too, or the fraction of
 /// the member at which it is: the first of those that have it within 10⁻¹⁰. The least is 0 where one changes its sign.
 ///
@@ -43,14 +50,9 @@ class MemberExtreme final : public Observable {
   enum class Which { greatest, least };
   enum class What { value, place };
 
-  /// `negligible`: up to this the quantities are round-off, and their place is 0.
-  MemberExtreme(std::shared_ptr<const ElementsOfMember> member, std::vector<SectionQuantity> quantities, Which which,
-                What what, double negligible = 0.0)
-      : member_(std::move(member)),
-        quantities_(std::move(quantities)),
-        which_(which),
-        what_(what),
-        negligible_(negligible) {}
+  /// The place of what is negligible is 0.
+  MemberExtreme(std::shared_ptr<const ElementsOfMember> member, SectionQuantities of, Which which, What what)
+      : member_(std::move(member)), of_(std::move(of)), which_(which), what_(what) {}
 
   double value(const State& state) const override;
   Row gradient(const State& state) const override;
@@ -63,9 +65,9 @@ class MemberExtreme final : public Observable {
     double fraction = 0.0;
     std::size_t quantity = 0;
     Index element = 0;
-    std::size_t stretch = 0;                                  // of the element
-    double xi = 0.0;                                          // of the stretch
-    enum class Kind { node, inside, end } kind = Kind::node;  // of the stretch, or of the member
+    std::size_t stretch = 0;                                    // of the element
+    double xi = 0.0;                                            // of the stretch
+    enum class Kind { node, inside, fixed } kind = Kind::node;  // of the stretch; an end of the member, or a kink
   };
   Found extreme(const State& state) const;
   void look_in(const MemberStretch& stretch, Found& extreme, Index element, std::size_t number) const;
@@ -73,10 +75,9 @@ class MemberExtreme final : public Observable {
   double again(const State& state, const Found& found) const;
 
   std::shared_ptr<const ElementsOfMember> member_;
-  std::vector<SectionQuantity> quantities_;
+  SectionQuantities of_;
   Which which_;
   What what_;
-  double negligible_;
 };
 
 /// The mean absolute value of a quantity along a whole member.

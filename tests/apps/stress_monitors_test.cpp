@@ -156,6 +156,23 @@ right = { from = "top", to = "B", theory = "truss", material = "m", section = "t
   expect_confirmed(run);
 }
 
+// A cantilever that is half as deep behind a step, which lies between two nodes: M h/2I is greatest just behind it.
+TEST(StressMonitor, LooksAtStepsOfASectionBetweenNodes) {
+  const TracedDeck run(R"toml(
+title = "A stepped cantilever"
+material.m = { E = 2.0e5 }
+section.s = { shape = "table", at = [0.0, 0.25, 0.25001, 1.0], A = [200.0, 200.0, 100.0, 100.0], I = [2000.0, 2000.0, 500.0, 500.0], height = [10.0, 10.0, 10.0, 10.0] }
+point = { a = [0.0, 0.0], b = [1000.0, 0.0] }
+support = { a = ["x", "z", "rotation"] }
+load = [{ at = "b", force = [0.0, -1.0] }]
+member.c = { from = "a", to = "b", theory = "elastica", material = "m", section = "s", elements = 17 }
+path = { step = 0.5, output_at = { lambda = [0.2, 0.4, 0.6, 0.8] }, stop = { lambda = [-1.0, 1.0] } }
+)toml" + monitor("s", "", "max-stress"));
+  EXPECT_NEAR(last(run, "s"), 0.74999 * 1000.0 * 5.0 / 500.0, 1e-4);
+  EXPECT_NEAR(last(run, "s-place"), 0.25001, 1e-12);
+  expect_confirmed(run);
+}
+
 TEST(StressMonitor, StopsAPathAtTheAllowable) {
   const TracedDeck run(member(rectangle, "theory = \"elastica\"", R"toml(
 support = { A = ["x", "z", "rotation"] }
