@@ -79,12 +79,17 @@ std::string first_message(const InputError& error) {
   return (first.key.empty() ? "" : first.key + ": ") + first.message;
 }
 
+// A law whose slopes are equal on both sides of a stretch has a kink there for other values.
 std::optional<State> state_on(const Model& model, const State& state) {
-  if (model.sliding() != nullptr) return model.sliding()->taken_over(state);
+  if (model.sliding() != nullptr) {
+    auto taken_over = model.sliding()->taken_over(state);
+    return taken_over ? std::optional(model.with_kinks(std::move(*taken_over))) : std::nullopt;
+  }
   const System& system = model.system();
-  if (system.open_active_set().size() != state.active_set.size() || system.size(state.active_set) != state.x.size())
+  if (system.open_active_set().contacts() != state.active_set.contacts() ||
+      system.size(state.active_set) != state.x.size())
     return std::nullopt;
-  return state;
+  return model.with_kinks(state);
 }
 
 }  // namespace arcwall

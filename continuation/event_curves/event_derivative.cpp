@@ -14,9 +14,9 @@ namespace {
 
 constexpr double longest_step =
     6.4e-2;  // h of differences of J along a direction [path metric]; the best is looked for,
-constexpr int halvings = 6;
+constexpr int halvings = 13;
 constexpr double longest_turn = 3.2e-2;  // the same of the rate of a monitor, at equilibria along the path
-constexpr int turn_halvings = 7;
+constexpr int turn_halvings = 13;
 constexpr double short_enough = 1e-6;  // difference of fourth and sixth order of a rate by κ, of which the latter is
                                        // much less off
 constexpr int most_passes = 12;        // of the rate of F along the change of the equilibrium,
@@ -496,7 +496,7 @@ EventDerivative EventDerivatives::by_turning(const Direction& response, const st
 }
 
 bool EventDerivatives::is_settled(const Settled& rate, double of, const std::vector<SystemSample>& samples) {
-  constexpr double sure = 1e-3, little = 1e-9;  // of the rate; of what changes by a step of the number
+  constexpr double sure = 1e-4, little = 1e-9;  // of the rate; of what changes by a step of the number
   return std::isfinite(rate.value) &&
          rate.off <= sure * std::abs(rate.value) + little * std::abs(of) / step_of(samples);
 }

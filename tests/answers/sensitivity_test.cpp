@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "apps/output/events_json.hpp"
@@ -86,14 +84,6 @@ void expect_agreement(const std::string& deck, const std::vector<Number>& number
   }
 }
 
-// Of the examples and the devices.
-std::string_view device(const std::string& name) {
-  for (const auto* const decks : {&example_devices(), &example_decks()})
-    for (const ExampleDeck& deck : *decks)
-      if (deck.name == name) return deck.text;
-  throw std::runtime_error("no example is called " + name);
-}
-
 }  // namespace
 
 // Touch, spreading, lifting off and the snap. Values of the extensible elastica by shooting, from complex steps: by the
@@ -137,12 +127,12 @@ TEST(Sensitivity, OfHeatSlow) {
 // The push of a snap-fit turns where its catch's flank ends, at a jump of the curvature. The branch point of a heated
 // rail lies between kinks of its ballast's law.
 TEST(Sensitivity, IsNotToldAtAKink) {
-  const TracedDeck snap_fit(device("snap-fit"), {"path.sensitivity=['section.hook.height']"});
+  const TracedDeck snap_fit(test::example("snap-fit"), {"path.sensitivity=['section.hook.height']"});
   for (const RecordEvent& event : test::events_of(snap_fit.record(), EventKind::turning_point)) {
     EXPECT_FALSE(event.sensitivity.at(0).slope) << event.id;
     EXPECT_NE(event.sensitivity[0].why_none.find("kink"), std::string::npos) << event.id;
   }
-  const TracedDeck rail(device("rail"), {"path.sensitivity=['material.steel.E']"});
+  const TracedDeck rail(test::example("rail"), {"path.sensitivity=['material.steel.E']"});
   const RecordSensitivity& of_second = event_of(rail, EventKind::branch_point, 2).sensitivity.at(0);
   EXPECT_FALSE(of_second.slope);
   EXPECT_NE(of_second.why_none.find("kink"), std::string::npos);
@@ -170,13 +160,13 @@ TEST(Sensitivity, OfEveryExampleIsThatOfOtherRunsSlow) {
                                 {"mems-switch", "section.beam.height"},
                                 {"pipeline", "section.pipe.thickness"},
                                 {"portal", "section.column.I"},
-                                {"rail", "section.track.I", 1},
+                                {"rail", "section.track.I"},
                                 {"snap-fit", "section.hook.height", 2},
                                 {"thick", "wall.foundation.profile.z"},
                                 {"truss", "point.top.1"}};
   for (const Case& one : cases) {
     SCOPED_TRACE(one.name + " by " + one.key);
-    const std::string deck(device(one.name));
+    const std::string deck(test::example(one.name));
     const auto events = located(TracedDeck(deck, {names_of({one.key}), "path.jumps=false"}));
     ASSERT_FALSE(events.empty());
     const double value = events.front().sensitivity.at(0).value, h = 1e-3 * std::abs(value);
@@ -201,7 +191,7 @@ TEST(Sensitivity, OfEveryExampleIsThatOfOtherRunsSlow) {
 // EA and EI alone make the loads of Lee's frame, all of which go with E: E λ_E = A λ_A + I λ_I = λ (Euler). The
 // extension of its members has a part of 1e-4 in them.
 TEST(Sensitivity, ByAreaAndBySecondMomentMakeUpTheLoad) {
-  const TracedDeck traced(device("lee"), {names_of({"material.alloy.E", "section.bar.A", "section.bar.I"})});
+  const TracedDeck traced(test::example("lee"), {names_of({"material.alloy.E", "section.bar.A", "section.bar.I"})});
   const auto events = located(traced);
   ASSERT_EQ(events.size(), 4U);
   for (const RecordEvent& event : events) {

@@ -45,10 +45,11 @@ inline std::string said_of(const std::string& deck) {
   return {};
 }
 
-/// The text of an example that comes with the program.
+/// The text of an example or a device that comes with the program.
 inline std::string_view example(const std::string& name) {
-  for (const ExampleDeck& deck : example_decks())
-    if (deck.name == name) return deck.text;
+  for (const auto* const decks : {&example_devices(), &example_decks()})
+    for (const ExampleDeck& deck : *decks)
+      if (deck.name == name) return deck.text;
   ADD_FAILURE() << "no example is called " << name;
   return {};
 }
