@@ -39,10 +39,11 @@ std::shared_ptr<const Observable> watched_of(const Model& model, const Event& ev
   return is_watched ? model.quantity(event.label) : nullptr;
 }
 
-std::vector<std::shared_ptr<const Observable>> quantities_of(const Model& model) {
-  std::vector<std::shared_ptr<const Observable>> quantities;
+std::vector<RatedQuantity> quantities_of(const Model& model) {
+  std::vector<RatedQuantity> quantities;
   for (const MonitorColumn& column : model.monitors())
-    quantities.push_back(column.is_place ? nullptr : column.quantity);  // places jump
+    quantities.push_back(
+        {.value = column.is_place ? nullptr : column.quantity, .roundoff = column.roundoff});  // places jump
   return quantities;
 }
 

@@ -17,9 +17,11 @@ constexpr double longest_step =
 constexpr int halvings = 13;
 constexpr double longest_turn = 3.2e-2;  // the same of the rate of a monitor, at equilibria along the path
 constexpr int turn_halvings = 13;
-constexpr double short_enough = 1e-6;  // difference of fourth and sixth order of a rate by κ, of which the latter is
-                                       // much less off
-constexpr int most_passes = 12;        // of the rate of F along the change of the equilibrium,
+constexpr double short_enough = 1e-6;    // difference of fourth and sixth order of a rate by κ, of which the latter is
+                                         // much less off
+constexpr double sure = 1e-4;            // by which a rate that is told may be off
+constexpr double roundoff_terms = 10.0;  // of a quantity's values in what its rate is off
+constexpr int most_passes = 12;          // of the rate of F along the change of the equilibrium,
 constexpr double nearly_followed = 1e-6;  // of it, below which round-off may stop that
 constexpr double moves_no_more = 1e-11;   // or of what a step of the number changes,
 constexpr double followed_to = 1e-12;     // of which as much is left
@@ -62,6 +64,15 @@ bool turns(const Arc& arc) {
                      [](const Event& event) { return event.kind == EventKind::limit_point; });
 }
 
+// A compliant wall begins to press with a length of zero: only without it are the equations smooth there.
+void open_those_without_force(const UnilateralSystem& system, const std::vector<Index>& guards, ActiveSet& active_set) {
+  for (const Index j : guards) {
+    if (j >= static_cast<Index>(active_set.contacts())) continue;
+    const Enforcement how = system.enforcement(active_set, j);
+    if (!how.multiplier && how.compliance > 0.0) active_set[static_cast<std::size_t>(j)] = 0;
+  }
+}
+
 // J k_x + F_λ k_λ at a state.
 Vector directional(const Equations& system, const State& state, const Direction& k, Linearization& workspace) {
   system.linearize(state, workspace);
@@ -85,12 +96,13 @@ auto rate_along(const std::vector<SystemSample>& samples, const Direction& d, co
   return *sum;
 }
 
-Vector residual_rate(const std::vector<SystemSample>& samples, const Direction& d) {
-  return rate_along(samples, d, [](const SystemSample& sample, const State& state) {
+Vector residual_rate(const std::vector<SystemSample>& samples, const Direction& d, bool coarse = false) {
+  const auto residual = [](const SystemSample& sample, const State& state) {
     Vector F(state.x.size());
     sample.system->residual(state, F);
     return F;
-  });
+  };
+  return rate_along(samples, d, residual, coarse);
 }
 
 // Σ weight f(offset · h)/h, at states along d
@@ -146,10 +158,15 @@ EventDerivatives::Settled EventDerivatives::with_best_step(double longest, int h
   return best;
 }
 
+double EventDerivatives::relative(const Settled& one) { return one.off / std::max(std::abs(one.value), 1e-300); }
+
+EventDerivatives::Settled EventDerivatives::over(const Settled& one, double divisor) {
+  return {.value = one.value / divisor, .off = one.off / std::abs(divisor)};
+}
+
 EventDerivatives::EventDerivatives(const System& system, const Arc& arc, const Event& event,
-                                   std::shared_ptr<const Observable> watched,
-                                   std::vector<std::shared_ptr<const Observable>> quantities, double lambda_scale,
-                                   const MakeFactorization& factorization)
+                                   std::shared_ptr<const Observable> watched, std::vector<RatedQuantity> quantities,
+                                   double lambda_scale, const MakeFactorization& factorization)
     : system_(system),
       metric_(system.weights(event.state.active_set), lambda_scale),
       lambda_scale_(lambda_scale),
@@ -186,14 +203,15 @@ EventDerivatives::EventDerivatives(const System& system, const Arc& arc, const E
 // Tangent and, of events of contact, the guards that vanish; of a turning monitor the rate of its rate.
 bool EventDerivatives::begin_regular(const Direction& along) {
   if (along.dx.size() != state_.x.size()) return false;
-  CorrectorResult here = corrector_.inspect(state_, metric_, along);
-  if (!here.converged()) return false;
-  tangent_ = std::move(here.tangent);
   if (condition_ == Condition::guards) {
     const Vector guards = system_.guards(state_);
     for (Index j = 0; j < guards.size(); ++j)
       if (std::abs(guards[j]) <= vanishing) guards_.push_back(j);
+    open_those_without_force(system_, guards_, state_.active_set);
   }
+  CorrectorResult here = corrector_.inspect(state_, metric_, along);
+  if (!here.converged()) return false;
+  tangent_ = std::move(here.tangent);
   if (condition_ == Condition::turning || (condition_ == Condition::limit && !quantities_.empty())) {
     turning_along_ = turning_along();
     turning_here_ = turning_rate(tangent_, Vector::Zero(state_.x.size()), 0.0);
@@ -261,9 +279,16 @@ EventDerivatives::Settled EventDerivatives::bend(const Direction& k, const Direc
 // is taken again along the change that is known, until nothing is left of it:
 //
 //     J δ_x + F_λ δ_λ = −dF(x + κ v_x, λ + κ v_λ; κ)/dκ,    v ← v + δ
+//
+// What differences of a lower order would leave of it tells the error.
 template <typename Solve>
-std::optional<Direction> EventDerivatives::followed(const std::vector<SystemSample>& samples,
-                                                    const Solve& solve) const {
+std::optional<EventDerivatives::Response> EventDerivatives::followed(const std::vector<SystemSample>& samples,
+                                                                     const Solve& solve) const {
+  const auto done = [&](Direction& v) -> std::optional<Response> {
+    const auto unsure = solve(residual_rate(samples, v, true));
+    if (!unsure) return std::nullopt;
+    return Response{.d = std::move(v), .unsure = *unsure};
+  };
   Direction v{.dx = Vector::Zero(state_.x.size()), .dlambda = 0.0};
   const double roundoff_of_v = moves_no_more / step_of(samples);
   double before = infinity;
@@ -271,10 +296,10 @@ std::optional<Direction> EventDerivatives::followed(const std::vector<SystemSamp
     const std::optional<Direction> change = solve(-residual_rate(samples, v));
     if (!change) return std::nullopt;
     const double length = metric_.norm(*change);
-    if (length <= nearly_followed * metric_.norm(v) + roundoff_of_v && !(length < 0.5 * before)) return v;
+    if (length <= nearly_followed * metric_.norm(v) + roundoff_of_v && !(length < 0.5 * before)) return done(v);
     v.dx += change->dx;
     v.dlambda += change->dlambda;
-    if (length <= followed_to * metric_.norm(v)) return v;
+    if (length <= followed_to * metric_.norm(v)) return done(v);
     before = length;
   }
   return std::nullopt;
@@ -285,6 +310,12 @@ std::optional<Direction> EventDerivatives::along_path(const Vector& f) {
   return corrector_.factorized().solver().solve(metric_.row(tangent_), f, 0.0);
 }
 
+// Whether the branches meet for other values, too.
+bool EventDerivatives::persists(const std::vector<SystemSample>& samples) const {
+  const Vector F_kappa = residual_rate(samples, {.dx = Vector::Zero(state_.x.size()), .dlambda = 0.0});
+  return std::abs(left_.dot(F_kappa)) <= persistent * greatest_work(F_kappa) + load_work_ * roundoff / step_of(samples);
+}
+
 // At the λ of a branch point, without a part along the critical mode.
 std::optional<Direction> EventDerivatives::across_crossing(const Vector& f) {
   auto response = corrector_.response_across(metric_.row(kernel_.front()), f);
@@ -292,37 +323,62 @@ std::optional<Direction> EventDerivatives::across_crossing(const Vector& f) {
   return Direction{.dx = std::move(*response), .dlambda = 0.0};
 }
 
-EventDerivative EventDerivatives::by(const std::vector<SystemSample>& samples) {
+EventDerivative EventDerivatives::by(std::vector<SystemSample> samples) {
   if (!why_none_.empty()) return none(why_none_);
-  if (condition_ == Condition::crossing) return by_crossing(samples);
-  const auto response = followed(samples, [&](const Vector& f) { return along_path(f); });
+  for (SystemSample& sample : samples) open_those_without_force(*sample.system, guards_, sample.state.active_set);
+  const bool crosses = condition_ == Condition::crossing;
+  if (crosses && !persists(samples))
+    return none("the branch point does not persist: for other values the branches do not meet");
+  const auto response =
+      followed(samples, [&](const Vector& f) { return crosses ? across_crossing(f) : along_path(f); });
   if (!response) return too_far();
+  EventDerivative found = by_condition(*response, samples);
+  const double untold = untold_of(found);
+  found.off += untold;
+  found.steps_too_long = found.steps_too_long || untold > 0.0;
+  return found;
+}
+
+// What is not told counts as off by all of itself.
+double EventDerivatives::untold_of(const EventDerivative& found) const {
+  if (!found.value) return infinity;
+  double untold = 0.0;
+  for (std::size_t i = 0; i < found.rates.size(); ++i) untold += quantities_[i].value && !found.rates[i] ? 1.0 : 0.0;
+  return untold;
+}
+
+EventDerivative EventDerivatives::by_condition(const Response& response, const std::vector<SystemSample>& samples) {
   switch (condition_) {
     case Condition::guards:
-      return by_guards(*response, samples);
+      return by_guards(response, samples);
     case Condition::turning:
-      return by_turning(*response, samples);
+      return by_turning(response, samples);
     case Condition::value:
-      return by_value(*response, samples);
-    case Condition::limit:
+      return by_value(response, samples);
     case Condition::crossing:
+      return by_crossing(response, samples);
+    case Condition::limit:
       break;
   }
-  return by_limit(*response, samples);
+  return by_limit(response, samples);
 }
 
 // dq/dκ of a quantity along states that move by d with κ. By its gradient it has the fewest errors of round-off, unless
-// what κ does at the event's own state is no small change: then it is told by states that follow κ.
+// what κ does at the event's own state is no small change, by its own error or since states that follow κ tell
+// something else: then these tell it.
 template <typename Quantity>
-double EventDerivatives::rate_of(const Row& gradient, const Direction& d, const std::vector<SystemSample>& samples,
-                                 const Quantity& quantity) const {
+EventDerivatives::Settled EventDerivatives::rate_of(const Row& gradient, const Direction& d,
+                                                    const std::vector<SystemSample>& samples,
+                                                    const Quantity& quantity) const {
   const Direction stays{.dx = Vector::Zero(d.dx.size()), .dlambda = 0.0};
   const auto rate = [&](const Direction& along) {
     const double value = rate_along(samples, along, quantity);
     return Settled{.value = value, .off = std::abs(value - rate_along(samples, along, quantity, true))};
   };
   const Settled following = rate(d), at_rest = rate(stays);
-  return at_rest.off <= following.off ? apply(gradient, d) + at_rest.value : following.value;
+  const double by_gradient = apply(gradient, d) + at_rest.value;
+  const bool agree = std::abs(by_gradient - following.value) <= short_enough * std::abs(following.value);
+  return agree && at_rest.off <= following.off ? Settled{.value = by_gradient, .off = at_rest.off} : following;
 }
 
 // dm/dκ = ∂m/∂κ + ∂m/∂x · dx/dκ + ∂m/∂λ · dλ/dκ of each quantity, along the event. None of those that change by what
@@ -332,21 +388,27 @@ std::vector<std::optional<double>> EventDerivatives::rates(const Direction& moti
                                                            const std::vector<Direction>& unsure) const {
   std::vector<std::optional<double>> rates(quantities_.size());
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
-    if (!quantities_[i]) continue;
+    if (!quantities_[i].value) continue;
     const auto quantity = [i](const SystemSample& sample, const State& state) {
-      return sample.quantities[i]->value(state);
+      return sample.quantities[i].value->value(state);
     };
-    const Row gradient = quantities_[i]->gradient(state_);
-    Settled rate{.value = rate_of(gradient, motion, samples, quantity), .off = 0.0};
+    const Row gradient = quantities_[i].value->gradient(state_);
+    Settled rate = rate_of(gradient, motion, samples, quantity);
     for (const Direction& part : unsure) rate.off += std::abs(apply(gradient, part));
-    if (is_settled(rate, quantities_[i]->value(state_), samples)) rates[i] = rate.value;
+    const double parts = gradient.dx.cwiseAbs().dot(motion.dx.cwiseAbs()) + std::abs(gradient.dlambda * motion.dlambda);
+    rate.off = std::max(0.0, rate.off - roundoff_terms * quantities_[i].roundoff / step_of(samples));
+    if (is_settled(rate, std::abs(quantities_[i].value->value(state_)) + parts * step_of(samples), samples))
+      rates[i] = rate.value;
   }
   return rates;
 }
 
-EventDerivative EventDerivatives::of_motion(const Direction& motion, const std::vector<SystemSample>& samples) const {
-  EventDerivative found = known(motion.dlambda);
-  if (found.value) found.rates = rates(motion, samples, {});
+// The event moves by the response, and back along the path by what is settled so far.
+EventDerivative EventDerivatives::of_motion(const Response& response, const Settled& moves,
+                                            const std::vector<SystemSample>& samples) const {
+  EventDerivative found = settled(slope_of(response, moves), samples);
+  if (found.value)
+    found.rates = rates(along(response.d, moves.value), samples, {times(moves.off, tangent_), response.unsure});
   return found;
 }
 
@@ -355,50 +417,56 @@ Direction EventDerivatives::along(const Direction& response, double moves) const
   return {.dx = response.dx - moves * tangent_.dx, .dlambda = response.dlambda - moves * tangent_.dlambda};
 }
 
+EventDerivatives::Settled EventDerivatives::slope_of(const Response& response, const Settled& moves) const {
+  return {.value = response.d.dlambda - moves.value * tangent_.dlambda,
+          .off = std::abs(response.unsure.dlambda) + std::abs(tangent_.dlambda) * moves.off};
+}
+
 // Along the path λ does not change: where the event moves along it matters to other quantities alone.
-EventDerivative EventDerivatives::by_limit(const Direction& response, const std::vector<SystemSample>& samples) {
-  EventDerivative found = known(response.dlambda);
+EventDerivative EventDerivatives::by_limit(const Response& response, const std::vector<SystemSample>& samples) {
+  EventDerivative found = settled(slope_of(response, {}), samples);
   if (!found.value || quantities_.empty()) return found;
   const TurnedBy turned = turned_by(response, samples);
   const Settled &equilibria = turned.equilibria.moves, &equations = turned.equations.moves;
   const bool equilibria_tell = equilibria.off <= equations.off || !std::isfinite(equations.off);
   const Settled& moves = equilibria_tell ? equilibria : equations;
-  found.off = turned.rate.off;
-  found.steps_too_long = equilibria_tell && !(found.off <= short_enough * std::abs(turned.rate.value));
-  found.rates = rates(along(response, moves.value), samples, {times(moves.off, tangent_)});
+  found.off += relative(moves);
+  found.steps_too_long = equilibria_tell && !(relative(turned.rate) <= short_enough);
+  found.rates = rates(along(response.d, moves.value), samples, {times(moves.off, tangent_), response.unsure});
   return found;
 }
 
 // The value is passed where the path leads it back to.
-EventDerivative EventDerivatives::by_value(const Direction& response, const std::vector<SystemSample>& samples) const {
+EventDerivative EventDerivatives::by_value(const Response& response, const std::vector<SystemSample>& samples) const {
   const Row row = watched_->gradient(state_);
-  const double rate = apply(row, tangent_);
+  const double rate = watched_->rate(state_, tangent_);
   if (std::abs(rate) <= negligible * metric_.dual_norm(row)) return none("the value is only touched there");
   const auto value = [](const SystemSample& sample, const State& state) { return sample.watched->value(state); };
-  return of_motion(along(response, rate_of(row, response, samples, value) / rate), samples);
+  return of_motion(response, over(rate_of(row, response.d, samples, value), rate), samples);
 }
 
 // Where λ moves along the path by −t_λ (dg/dκ)/(dg/ds), the guard stays zero. Those that vanish together must agree,
 // else they do so at this value of the number alone.
-EventDerivative EventDerivatives::by_guards(const Direction& response, const std::vector<SystemSample>& samples) const {
+EventDerivative EventDerivatives::by_guards(const Response& response, const std::vector<SystemSample>& samples) const {
   const double size = step_of(samples);
-  std::optional<Direction> found;
+  std::optional<Settled> found;
   for (const Index j : guards_) {
     const Row row = system_.guard_gradient(state_, j);
     const double rate = apply(row, tangent_);
     const auto guard = [&](const SystemSample& sample, const State& state) { return sample.system->guard(state, j); };
-    const double by_number = rate_of(row, response, samples, guard);
-    if (std::abs(rate) <= negligible && std::abs(by_number) * size <= negligible) continue;
+    const Settled by_number = rate_of(row, response.d, samples, guard);
+    if (std::abs(rate) <= negligible && std::abs(by_number.value) * size <= negligible) continue;
     if (std::abs(rate) <= negligible) return none("a contact is only touched there");
-    Direction motion = along(response, by_number / rate);
-    const double slope = motion.dlambda, other = found ? found->dlambda : slope;
+    const Settled moves = over(by_number, rate);
+    const double slope = slope_of(response, moves).value;
+    const double other = found ? slope_of(response, *found).value : slope;
     const double scale = std::abs(slope) + std::abs(other) + negligible / size;
     if (std::abs(other - slope) > agreeing * scale)
       return none("contacts change together there, and would not for another value");
-    if (!found) found = std::move(motion);
+    if (!found) found = moves;
   }
   if (!found) return none("what changes there is not met to the last digit, since the mesh changes with it");
-  return of_motion(*found, samples);
+  return of_motion(response, *found, samples);
 }
 
 // The rate m′ = ∇m · t of a monitor at the equilibrium of a system near a guess that is as far along the path.
@@ -446,35 +514,36 @@ EventDerivatives::Settled EventDerivatives::turning_rate(const Direction& d, con
 
 // m′ stays zero: where it changes by κ across the path, the event moves along the path.
 EventDerivatives::Turned EventDerivatives::turned(const Settled& along, const Settled& rate,
-                                                  const Direction& response) const {
+                                                  const Response& response) const {
   const double moves = rate.value / along.value;
   const double off = (rate.off + std::abs(moves) * along.off) / std::abs(along.value);
-  return {.slope = {.value = response.dlambda - moves * tangent_.dlambda, .off = std::abs(tangent_.dlambda) * off},
-          .moves = {.value = moves, .off = off}};
+  const Settled along_path{.value = moves, .off = off};
+  return {.slope = slope_of(response, along_path), .moves = along_path};
 }
 
 // By equilibria beside the event and by second derivatives of the equations: axial forces of slender members drown the
 // latter in round-off, the former is lost where a reaction is a small difference of great forces. Of the latter two
 // steps may agree better than they are right, so that they are asked only where the former is unsure.
-EventDerivatives::TurnedBy EventDerivatives::turned_by(const Direction& response,
+EventDerivatives::TurnedBy EventDerivatives::turned_by(const Response& response,
                                                        const std::vector<SystemSample>& samples) {
   Settled rate;
   double coarse = 0.0, of_gradient = 0.0;
   for (const SystemSample& sample : samples) {
     Corrector corrector(*sample.system, {}, lambda_scale_, factorization_);
-    const double there = turning_beside(corrector, *sample.watched, moved(sample.state, response, sample.offset), 0.0);
+    const double there =
+        turning_beside(corrector, *sample.watched, moved(sample.state, response.d, sample.offset), 0.0);
     rate.value += sample.weight * there;
     coarse += sample.coarse_weight * there;
     of_gradient += sample.weight * sample.watched->rate(sample.state, tangent_);
   }
   rate.off = std::abs(rate.value - coarse);
-  const Direction stays{.dx = Vector::Zero(response.dx.size()), .dlambda = 0.0};
+  const Direction stays{.dx = Vector::Zero(response.d.dx.size()), .dlambda = 0.0};
   const auto along_tangent = [&](const SystemSample& sample, const State& state) {
     Linearization of_sample;
     return directional(*sample.system, state, tangent_, of_sample);
   };
   const Vector more = rate_along(samples, stays, along_tangent);
-  Settled here = turning_rate(response, more, of_gradient);
+  Settled here = turning_rate(response.d, more, of_gradient);
   const auto change = along_path(more - rate_along(samples, stays, along_tangent, true));
   here.off += change ? std::abs(watched_->rate(state_, *change)) : infinity;
   return {.equilibria = turned(turning_along_, rate, response),
@@ -482,21 +551,22 @@ EventDerivatives::TurnedBy EventDerivatives::turned_by(const Direction& response
           .rate = rate};
 }
 
-EventDerivative EventDerivatives::by_turning(const Direction& response, const std::vector<SystemSample>& samples) {
+EventDerivative EventDerivatives::by_turning(const Response& response, const std::vector<SystemSample>& samples) {
   const auto [by_equilibria, by_equations, rate] = turned_by(response, samples);
   const bool equilibria_tell = by_equilibria.slope.off <= short_enough * std::abs(by_equilibria.slope.value) ||
                                by_equilibria.slope.off < by_equations.slope.off ||
                                !std::isfinite(by_equations.slope.off);
   const Turned& told = equilibria_tell ? by_equilibria : by_equations;
   EventDerivative found = settled(told.slope, samples);
-  if (found.value) found.rates = rates(along(response, told.moves.value), samples, {times(told.moves.off, tangent_)});
-  found.off = rate.off;
-  found.steps_too_long = equilibria_tell && !(rate.off <= short_enough * std::abs(rate.value));
+  if (found.value)
+    found.rates =
+        rates(along(response.d, told.moves.value), samples, {times(told.moves.off, tangent_), response.unsure});
+  found.steps_too_long = equilibria_tell && !(relative(rate) <= short_enough);
   return found;
 }
 
 bool EventDerivatives::is_settled(const Settled& rate, double of, const std::vector<SystemSample>& samples) {
-  constexpr double sure = 1e-4, little = 1e-9;  // of the rate; of what changes by a step of the number
+  constexpr double little = 1e-9;  // of what changes by a step of the number
   return std::isfinite(rate.value) &&
          rate.off <= sure * std::abs(rate.value) + little * std::abs(of) / step_of(samples);
 }
@@ -505,7 +575,9 @@ bool EventDerivatives::is_settled(const Settled& rate, double of, const std::vec
 EventDerivative EventDerivatives::settled(const Settled& slope, const std::vector<SystemSample>& samples) const {
   if (!is_settled(slope, state_.lambda, samples))
     return none("the second derivatives of the equations are not told there, as beside a kink of a law or of a wall");
-  return known(slope.value);
+  EventDerivative found = known(slope.value);
+  found.off = relative(slope);
+  return found;
 }
 
 // The most work that f does along the left null vector, displacements and multipliers by themselves: the metric knows
@@ -524,20 +596,16 @@ double EventDerivatives::greatest_work(const Vector& f) const {
 //   [ B₂₁ B₂₂ ] [λ′] = − [ wᵀ d(J k₂)/dκ ],    B_ij = wᵀ D²F[k_i, k_j],    J v = −F_κ,
 //
 // with d/dκ along x + κ v.
-EventDerivative EventDerivatives::by_crossing(const std::vector<SystemSample>& samples) {
-  const Vector F_kappa = residual_rate(samples, {.dx = Vector::Zero(state_.x.size()), .dlambda = 0.0});
-  if (std::abs(left_.dot(F_kappa)) > persistent * greatest_work(F_kappa) + load_work_ * roundoff / step_of(samples))
-    return none("the branch point does not persist: for other values the branches do not meet");
-  const auto v = followed(samples, [&](const Vector& f) { return across_crossing(f); });
-  if (!v) return too_far();
+EventDerivative EventDerivatives::by_crossing(const Response& response, const std::vector<SystemSample>& samples) {
+  const Direction& v = response.d;
   Eigen::Vector2d right, off;
   for (Index i = 0; i < 2; ++i) {
     const auto work = [&](const SystemSample& sample, const State& state) {
       Linearization of_sample;
       return left_.dot(directional(*sample.system, state, kernel_[static_cast<std::size_t>(i)], of_sample));
     };
-    right[i] = rate_along(samples, *v, work);
-    off[i] = std::abs(right[i] - rate_along(samples, *v, work, true));
+    right[i] = rate_along(samples, v, work);
+    off[i] = std::abs(right[i] - rate_along(samples, v, work, true));
   }
   const double determinant = bend_.determinant();
   const Eigen::Matrix2d B = bend_.cwiseAbs();
@@ -554,10 +622,11 @@ EventDerivative EventDerivatives::by_crossing(const std::vector<SystemSample>& s
   };
   const Settled along_mode = solution(0), slope = solution(1);
   EventDerivative found = settled(slope, samples);
-  const Direction motion{.dx = v->dx + along_mode.value * kernel_[0].dx + slope.value * kernel_[1].dx,
+  const Direction motion{.dx = v.dx + along_mode.value * kernel_[0].dx + slope.value * kernel_[1].dx,
                          .dlambda = slope.value};
   if (found.value)
-    found.rates = rates(motion, samples, {times(along_mode.off, kernel_[0]), times(slope.off, kernel_[1])});
+    found.rates =
+        rates(motion, samples, {times(along_mode.off, kernel_[0]), times(slope.off, kernel_[1]), response.unsure});
   return found;
 }
 

@@ -12,6 +12,12 @@
 
 namespace arcwall {
 
+/// A quantity of which a rate is wanted, null where none is, and what round-off makes of its value.
+struct RatedQuantity {
+  std::shared_ptr<const Observable> value{};
+  double roundoff = 0.0;
+};
+
 /// The system for one of a few values of a number κ of the model. A derivative by κ is a sum over such samples,
 ///
 ///     dQ/dκ = Σ weight · Q(sample)
@@ -19,10 +25,10 @@ struct SystemSample {
   const System* system = nullptr;               ///< must outlive its use
   State state{};                                ///< the event's, in the unknowns of this system
   std::shared_ptr<const Observable> watched{};  ///< the quantity that turns or passes a value there, of this system
-  std::vector<std::shared_ptr<const Observable>> quantities{};  ///< of this system, of which rates are wanted
-  double offset = 0.0;                                          ///< its value of κ less the event's [κ]
-  double weight = 0.0;                                          ///< [1/κ]
-  double coarse_weight = 0.0;  ///< the same of differences of a lower order, which tell the error
+  std::vector<RatedQuantity> quantities{};      ///< of this system
+  double offset = 0.0;                          ///< its value of κ less the event's [κ]
+  double weight = 0.0;                          ///< [1/κ]
+  double coarse_weight = 0.0;                   ///< the same of differences of a lower order, which tell the error
 };
 
 /// dλ/dκ of an event, or in words why there is none, and dm/dκ of quantities m there.
@@ -41,14 +47,12 @@ struct EventDerivative {
 class EventDerivatives {
  public:
   /// Of an event of an arc, which lies at the arc's end. `system` must outlive this. `watched`: the quantity that turns
-  /// or passes a value there, null at other events; `quantities`: those
-  /// whose rates are wanted, null where none is.
+  /// or passes a value there, null at other events.
   EventDerivatives(const System& system, const Arc& arc, const Event& event, std::shared_ptr<const Observable> watched,
-                   std::vector<std::shared_ptr<const Observable>> quantities, double lambda_scale,
-                   const MakeFactorization& factorization);
+                   std::vector<RatedQuantity> quantities, double lambda_scale, const MakeFactorization& factorization);
 
   /// By one number. The samples lie on both sides of its value.
-  EventDerivative by(const std::vector<SystemSample>& samples);
+  EventDerivative by(std::vector<SystemSample> samples);
 
  private:
   enum class Condition { limit, turning, value, guards, crossing };
@@ -62,19 +66,31 @@ class EventDerivatives {
   bool begin_crossing(const BranchPoint& point);
   double step_on_one_piece(const Direction& d, double longest) const;
   Settled bend(const Direction& k, const Direction& d);
+  // The change of the equilibrium with κ, and how much of it is unsure.
+  struct Response {
+    Direction d{}, unsure{};
+  };
+
   template <typename Solve>
-  std::optional<Direction> followed(const std::vector<SystemSample>& samples, const Solve& solve) const;
+  std::optional<Response> followed(const std::vector<SystemSample>& samples, const Solve& solve) const;
+  EventDerivative by_condition(const Response& response, const std::vector<SystemSample>& samples);
+  double untold_of(const EventDerivative& found) const;
+  bool persists(const std::vector<SystemSample>& samples) const;
+  Settled slope_of(const Response& response, const Settled& moves) const;
+  static double relative(const Settled& one);
   std::optional<Direction> along_path(const Vector& f);
   std::optional<Direction> across_crossing(const Vector& f);
   template <typename Quantity>
-  double rate_of(const Row& gradient, const Direction& d, const std::vector<SystemSample>& samples,
-                 const Quantity& quantity) const;
-  EventDerivative of_motion(const Direction& motion, const std::vector<SystemSample>& samples) const;
+  Settled rate_of(const Row& gradient, const Direction& d, const std::vector<SystemSample>& samples,
+                  const Quantity& quantity) const;
+  static Settled over(const Settled& one, double divisor);
+  EventDerivative of_motion(const Response& response, const Settled& moves,
+                            const std::vector<SystemSample>& samples) const;
   Direction along(const Direction& response, double moves) const;
-  EventDerivative by_limit(const Direction& response, const std::vector<SystemSample>& samples);
-  EventDerivative by_value(const Direction& response, const std::vector<SystemSample>& samples) const;
-  EventDerivative by_guards(const Direction& response, const std::vector<SystemSample>& samples) const;
-  EventDerivative by_turning(const Direction& response, const std::vector<SystemSample>& samples);
+  EventDerivative by_limit(const Response& response, const std::vector<SystemSample>& samples);
+  EventDerivative by_value(const Response& response, const std::vector<SystemSample>& samples) const;
+  EventDerivative by_guards(const Response& response, const std::vector<SystemSample>& samples) const;
+  EventDerivative by_turning(const Response& response, const std::vector<SystemSample>& samples);
   double turning_beside(Corrector& corrector, const Observable& turning, const State& guess, double along) const;
   Settled turning_along() const;
   Vector second_derivative(const Direction& k, const Direction& d, double h);
@@ -82,12 +98,12 @@ class EventDerivatives {
   struct Turned {
     Settled slope, moves;
   };
-  Turned turned(const Settled& along, const Settled& rate, const Direction& response) const;
+  Turned turned(const Settled& along, const Settled& rate, const Response& response) const;
   struct TurnedBy {
     Turned equilibria, equations;
     Settled rate;
   };
-  TurnedBy turned_by(const Direction& response, const std::vector<SystemSample>& samples);
+  TurnedBy turned_by(const Response& response, const std::vector<SystemSample>& samples);
   std::vector<std::optional<double>> rates(const Direction& motion, const std::vector<SystemSample>& samples,
                                            const std::vector<Direction>& unsure) const;
   static bool is_settled(const Settled& rate, double of, const std::vector<SystemSample>& samples);
@@ -95,7 +111,7 @@ class EventDerivatives {
   EventDerivative settled(const Settled& slope, const std::vector<SystemSample>& samples) const;
   template <typename Function>
   static Settled with_best_step(double longest, int halvings, const Function& derivative);
-  EventDerivative by_crossing(const std::vector<SystemSample>& samples);
+  EventDerivative by_crossing(const Response& response, const std::vector<SystemSample>& samples);
 
   const System& system_;
   Metric metric_;
@@ -108,7 +124,7 @@ class EventDerivatives {
   std::string why_none_;
   Direction tangent_;                          // of the path; of a branch point none
   std::shared_ptr<const Observable> watched_;  // what turns or passes a value; λ of a limit point
-  std::vector<std::shared_ptr<const Observable>> quantities_;
+  std::vector<RatedQuantity> quantities_;
   Settled turning_along_;            // the rate of its rate along the path, by equilibria
   Settled turning_here_;             // and by the second derivatives of the equations
   std::vector<Index> guards_;        // that vanish
