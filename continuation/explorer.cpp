@@ -57,11 +57,45 @@ std::vector<TriedWay> tried_ways(const System& system, const TraceOptions& trace
   return ways;
 }
 
+bool enters_a_wall(const System& system, const State& state) {
+  const Vector guards = system.guards(state);
+  const auto contacts = static_cast<Index>(state.active_set.contacts());
+  return (guards.head(contacts).array() < 0.0).any() || system.penetrated_place(state, 0.0);
+}
+
+// How far along a direction the first wall is entered, of its length; 0 if none is.
+double distance_to_wall(const System& system, const State& from, const Direction& along) {
+  constexpr double nearest = 1e-4, growth = 1.25;
+  for (double s = nearest; s <= 1.0; s *= growth) {
+    if (!enters_a_wall(system, moved(from, along, s))) continue;
+    double free = s / growth, inside = s;
+    while (inside - free > 0.1 * same_value * inside)
+      (enters_a_wall(system, moved(from, along, 0.5 * (free + inside))) ? inside : free) = 0.5 * (free + inside);
+    return inside;
+  }
+  return 0.0;
+}
+
+// Whether the walls and the energy far along a mode are those far against it. Beside the point all walls that are not
+// touched yet, and laws of springs, are symmetric.
+bool mirrored_far_away(const System& system, const Metric& metric, const State& a, const State& b) {
+  if (a.active_set != b.active_set) return true;
+  const Direction across = difference(a, b);
+  const State middle = moved(b, across, 0.5);
+  const Direction to = unit(metric, across), back = reversed(to);
+  const auto same_energy = [&](double s) {
+    return nearly_equal(system.energy(moved(middle, to, s)), system.energy(moved(middle, back, s)));
+  };
+  const double there = distance_to_wall(system, middle, to), here = distance_to_wall(system, middle, back);
+  return nearly_equal(there, here) && same_energy(0.01) && same_energy(0.1) && same_energy(1.0);
+}
+
 // Both sides of a symmetric branch point at the same distance have the same load and energy.
-bool mirror_images(const std::vector<TriedWay>& ways) {
+bool mirror_images(const System& system, const Metric& metric, const std::vector<TriedWay>& ways) {
   if (ways.size() != 2) return false;
   const State &a = ways[0].step.state, &b = ways[1].step.state;
-  return nearly_equal(a.lambda, b.lambda) && nearly_equal(ways[0].energy, ways[1].energy);
+  return nearly_equal(a.lambda, b.lambda) && nearly_equal(ways[0].energy, ways[1].energy) &&
+         mirrored_far_away(system, metric, a, b);
 }
 
 // Whether the structure follows a way off a stable branch, along which λ goes on as the load does: else it jumps.
@@ -281,7 +315,7 @@ void Explorer::jump(const Event& lost) {
 void Explorer::leave(const Event& event, const BranchPoint& point, const std::vector<TriedWay>& ways) {
   const Metric metric(system_.weights(point.state.active_set), lambda_scale_);
   const bool mirror_ahead = point.ends_its_own_branch();
-  const bool mirror_image = mirror_images(ways);
+  const bool mirror_image = mirror_images(system_, metric, ways);
   const int preferred = preferred_sense(options_.preference, point.state, point.other.dx, metric)
                             .value_or(ways.front().sign);  // along the mode, whose largest component is positive
   if (takes_every_way()) {
