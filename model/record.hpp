@@ -49,9 +49,10 @@ struct RecordForce {
   std::optional<RecordFriction> friction{};
 };
 
-/// Stores the derivatives of λ and of the monitors by the arc length, along the path.
+/// Stores the derivatives of λ, of the total potential energy and of the monitors by the arc length, along the path.
 struct RecordRates {
   double lambda = 0.0;
+  double energy = 0.0;
   std::vector<double> monitors{};  ///< one a column of the record
 };
 

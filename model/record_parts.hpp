@@ -39,7 +39,7 @@ void parts(Archive& archive, RecordForce& force) {
 
 template <typename Archive>
 void parts(Archive& archive, RecordRates& rates) {
-  archive(rates.lambda, rates.monitors);
+  archive(rates.lambda, rates.energy, rates.monitors);
 }
 
 template <typename Archive>

@@ -48,10 +48,16 @@ std::vector<RecordForce> forces_at(const Model* model, const State& state) {
   return forces;
 }
 
+// By differences: a system gives Π, but not its derivatives by λ and by the places of contact points.
+double energy_rate(const Model& model, const State& state, const Direction& tangent) {
+  constexpr double step = 1e-6;  // [path metric]
+  return (model.energy(moved(state, tangent, step)) - model.energy(moved(state, tangent, -step))) / (2.0 * step);
+}
+
 // Empty without a tangent.
 std::optional<RecordRates> rates_along(const Model* model, const State& state, const Direction& tangent) {
   if (model == nullptr || tangent.dx.size() != state.x.size() || state.x.size() == 0) return std::nullopt;
-  RecordRates rates{.lambda = tangent.dlambda};
+  RecordRates rates{.lambda = tangent.dlambda, .energy = energy_rate(*model, state, tangent)};
   for (const MonitorColumn& monitor : model->monitors())
     rates.monitors.push_back(monitor.quantity->rate(state, tangent));
   return rates;

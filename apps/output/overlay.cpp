@@ -127,6 +127,7 @@ Overlay overlay_of(const Record& record, const std::string& name) {
     }
   };
   add("lambda", [](const auto& of) { return of.lambda; });
+  add("energy", [](const auto& of) { return of.energy; });
   for (std::size_t i = 0; i < record.columns.size(); ++i)
     add(record.columns[i].name, [i](const auto& of) { return of.monitors[i]; });
   overlay.firsts = first_points(record);

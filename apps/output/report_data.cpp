@@ -73,11 +73,12 @@ OrderedJson points_json(const Record& record) {
        of_points(record, [&](const RecordPoint& point) { return number(without_roundoff(point.energy, no_energy)); })}};
 }
 
-// Of λ and the monitors.
+// Of λ, the monitors and the energy.
 OrderedJson rates_json(const RecordRates& rates) {
   constexpr int digits = 6;
   OrderedJson list = OrderedJson::array({number(rates.lambda, digits)});
   for (const double rate : rates.monitors) list.push_back(number(rate, digits));
+  list.push_back(number(rates.energy, digits));
   return list;
 }
 

@@ -225,6 +225,26 @@ test('curves are smooth: through all points, with the tangents of the path', asy
   await finish();
 });
 
+test('over the energy the curve is as smooth', async () => {
+  const { page, finish } = await open(channel);
+  if (await has_plotly(page)) {
+    const { points, lines, jumps } = await data_of(page);
+    await page.selectOption('#up', { label: 'energy [kN cm]' });
+    await page.selectOption('#monitor', { label: 'shortening [cm]' });
+    const drawn = await page.evaluate(() => document.getElementById('plot').data.filter(({ mode, line, hoverinfo }) =>
+      mode === 'lines' && line.width > 2 && hoverinfo === 'skip').map(({ x, y }) => x.map((value, i) => [value, y[i]])));
+    assert.equal(drawn.length, new Set(lines.map(({ stability }) => stability)).size);
+    const all = drawn.flat();
+    points.energy.forEach((energy, i) => assert.ok(all.some(([x, y]) => x === points.monitors[1][i] && y === energy), `point ${i} is on the curve`));
+    assert.ok(all.length > 2 * points.energy.length, `${all.length} places for ${points.energy.length} points`);
+    const { x, y } = await page.evaluate(() => document.getElementById('plot').data.find(({ marker }) => marker?.symbol === 'arrow'));
+    assert.equal(y[0], jumps[0].energy + jumps[0].released);
+    assert.ok(Math.abs(y[0] - points.energy[jumps[0].point]) < 1e-8, 'from the curve');
+    assert.deepEqual([x[1], y[1]], [jumps[0].to[1], jumps[0].energy]);
+  }
+  await finish();
+});
+
 test('where contacts change the curve has a kink', async () => {
   const { page, finish } = await open(channel);
   const { events, rates } = await data_of(page);

@@ -7,7 +7,7 @@ const plotly_chart = (picked, axes, opening, kept, keeps_axes) => {
   // `marked`: a number, or a jump whose end is marked.
   const here_trace = () => {
     const [x, y] = [shown.across, shown.up].map((quantity) => typeof marked === 'number' ? quantity.values[marked]
-      : in_state(quantity, marked.lambda, marked.to));
+      : in_state(quantity, marked.lambda, marked.to, marked.energy));
     return { type: 'scatter', mode: 'markers', x: [x ?? null], y: [y ?? null], hoverinfo: 'skip',
       marker: { size: 20, symbol: 'circle-open', color: colour('force'), line: { width: 3 } } };
   };

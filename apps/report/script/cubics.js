@@ -4,7 +4,7 @@
 const curve_of_the_path = () => {
   const count = points.lambda.length, empty = () => new Array(count).fill(null);
   const own = Object.fromEntries(quantities.map(({ key, values }) => [key, values]));
-  const known = quantities.slice(0, 1 + columns.length).map(({ key }) => key);
+  const known = [...quantities.slice(0, 1 + columns.length).map(({ key }) => key), 'energy'];
   const before = Object.fromEntries(known.map((key) => [key, empty()])), after = Object.fromEntries(known.map((key) => [key, empty()]));
   for (const [point, arriving, leaving = arriving] of data.rates)
     known.forEach((key, k) => {

@@ -38,13 +38,14 @@ const line_traces = ({ across, up }) => {
     hovertext: all.map(hover_text), hoverinfo: 'text', line: { width: 0 } }];
 };
 
-// What a quantity is in a state of which λ and the monitors are known; undefined of others.
-const in_state = (quantity, lambda, monitors) => quantity === load ? lambda : monitors[columns.findIndex(({ name }) => name === quantity.key)];
+// What a quantity is in a state of which λ, the monitors and the energy are known; undefined of others.
+const in_state = (quantity, lambda, monitors, energy) => quantity === load ? lambda : quantity.key === 'energy' ? energy
+  : monitors[columns.findIndex(({ name }) => name === quantity.key)];
 
 // Where the structure jumps to from a loss of stability, at constant λ.
 const jump_arrows = ({ across, up }) => {
-  const ends = data.jumps.map((jump) => [jump.from, jump.to].map((monitors) =>
-    [across, up].map((quantity) => in_state(quantity, jump.lambda, monitors) ?? null)));
+  const ends = data.jumps.map((jump) => [[jump.from, jump.energy + jump.released], [jump.to, jump.energy]].map(([monitors, energy]) =>
+    [across, up].map((quantity) => in_state(quantity, jump.lambda, monitors, energy) ?? null)));
   const known = ends.filter((both) => both.flat().every((value) => value !== null));
   const of_all = (values) => known.flatMap((both) => [...values(both), null]);
   return { type: 'scatter', mode: 'lines+markers', hoverinfo: 'skip', connectgaps: false,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "tests/apps/traced_deck.hpp"
 
@@ -28,6 +29,56 @@ TEST(PathCubics, RatesAreThoseOfTheClosedForm) {
     EXPECT_NEAR(point.rates->lambda / w_rate, slope(point.monitors[0]), 1e-9 * greatest_slope) << point.monitors[0];
     EXPECT_FALSE(point.rates_after) << "no contact changes";
   }
+}
+
+// Π is stationary where nothing slips: its rate is that of its load or movement, ∂Π/∂λ, times that of λ. By how much it
+// is another, in parts of the greatest rate. `by_lambda`: of a point, ∂Π/∂λ.
+template <class ByLambda>
+double error_of_energy_rates(const Record& record, const ByLambda& by_lambda) {
+  double greatest = 0.0, error = 0.0;
+  for (const RecordPoint& point : record.points)
+    for (const RecordRates& rates : {point.rates.value(), leaving_rates(point).value()}) {
+      greatest = std::max(greatest, std::abs(rates.energy));
+      error = std::max(error, std::abs(rates.energy - by_lambda(point) * rates.lambda));
+    }
+  return error / greatest;
+}
+
+TEST(PathCubics, TheEnergyFollowsTheWayOfTheLoad) {
+  const test::TracedDeck truss(test::example("truss"));
+  const auto way = [](const RecordPoint& point) { return -point.monitors[0]; };
+  EXPECT_LT(error_of_energy_rates(truss.record(), way), 1e-8);
+}
+
+// Of a mesh that moves with the contact points Π is stationary up to the error of the mesh.
+TEST(PathCubics, TheEnergyFollowsTheWayOfTheLoadOverAMovingMesh) {
+  const auto error = [](const std::string& elements) {
+    const test::TracedDeck channel(test::example("channel"), {"member.column.elements=" + elements});
+    return error_of_energy_rates(channel.record(), [](const RecordPoint& point) { return -point.monitors[1]; });
+  };
+  const double coarse = error("40"), fine = error("80");
+  EXPECT_LT(coarse, 2e-5);
+  EXPECT_LT(fine, 0.6 * coarse);
+}
+
+TEST(PathCubics, TheEnergyFollowsTheForceOnAMovedWall) {
+  const test::TracedDeck run(test::example("snap-fit"));
+  EXPECT_LT(error_of_energy_rates(run.record(), [](const RecordPoint& point) { return point.monitors[0]; }), 1e-8);
+}
+
+// What friction dissipates is lost.
+TEST(PathCubics, TheEnergyFollowsTheForceOnAMovedWallWithoutWhatFrictionDissipates) {
+  const test::TracedDeck run(test::example("snap-fit-friction"));
+  double dissipated = 0.0;
+  for (const RecordPoint& point : run.record().points) {
+    const std::optional<RecordRates>& rates = leaving_rates(point);
+    ASSERT_TRUE(rates);
+    double power = 0.0;
+    for (const RecordSlip& slip : point.slips) power -= slip.force * slip.slip_rate;
+    EXPECT_NEAR(rates->energy, point.monitors[0] * rates->lambda - power, 1e-6) << point.step;
+    dissipated = std::max(dissipated, power);
+  }
+  EXPECT_GT(dissipated, 1e-3);
 }
 
 double at_half(double from, double to, double begin, double end) { return 0.5 * (from + to) + 0.125 * (begin - end); }
@@ -83,6 +134,7 @@ TEST(PathCubics, AResumedRunHasTheSameRates) {
     const RecordPoint &a = run.points()[i], &b = resumed.points()[i];
     ASSERT_TRUE(a.rates && b.rates);
     EXPECT_EQ(a.rates->lambda, b.rates->lambda);
+    EXPECT_EQ(a.rates->energy, b.rates->energy);
     EXPECT_EQ(a.rates->monitors, b.rates->monitors);
     EXPECT_EQ(a.rates_after.has_value(), b.rates_after.has_value());
   }
