@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "apps/output/events_text.hpp"
 #include "apps/output/load_text.hpp"
 #include "apps/output/report_data.hpp"
+#include "apps/output/report_head.hpp"
 #include "apps/output/roundoff.hpp"
 #include "apps/output/shown_number.hpp"
 
@@ -56,16 +58,71 @@ std::string answer(const Record& record, double zero, const RecordEvent& event) 
 
 bool is_stable(const RecordPoint& point) { return point.count.stability == Stability::stable; }
 
+bool loses_stability(const RecordEvent& event) { return event.unstable_before == 0 && event.unstable_after > 0; }
+
+// `0.78109 N at λ = 3.627`. Between two points without an event a monitor may be greater: fewer digits are sure.
+std::string value_text(const Record& record, std::size_t monitor, const RecordPoint& point) {
+  constexpr int digits_of_points = 3;
+  const auto is_there = [&](const RecordEvent& event) {
+    return event.branch == point.branch && event.step == point.step;
+  };
+  const auto event = std::find_if(record.events.begin(), record.events.end(), is_there);
+  const bool is_event = event != record.events.end();
+  const std::string value = shown_number(point.monitors[monitor], is_event ? digits_of_answers : digits_of_points);
+  return with_unit(value, shown_name(record.columns[monitor].unit)) + " at λ = " +
+         (is_event ? shown_lambda(*event, digits_of_answers) : shown_number(point.lambda, digits_of_points));
+}
+
+// The greatest force and the least of a stage, in the order of the path; empty without a force.
+std::string force_answer(const Record& record, std::size_t force, Index stage) {
+  const double zero = roundoff(record)[force];
+  const RecordPoint *greatest = nullptr, *least = nullptr;
+  for (const RecordPoint& point : record.points) {
+    if (record.stage_number(point.branch) != stage) continue;
+    const double value = point.monitors[force];
+    if (value > (greatest == nullptr ? zero : greatest->monitors[force])) greatest = &point;
+    if (value < (least == nullptr ? -zero : least->monitors[force])) least = &point;
+  }
+  std::vector<std::pair<const RecordPoint*, const char*>> ways;
+  if (greatest != nullptr) ways.emplace_back(greatest, "rises to ");
+  if (least != nullptr) ways.emplace_back(least, "falls to ");
+  if (ways.empty()) return "";
+  std::sort(ways.begin(), ways.end());
+  std::string text = record.stages.empty() ? "" : shown_name(record.stages[static_cast<std::size_t>(stage)]) + ": ";
+  text += shown_name(record.columns[force].name) + " ";
+  for (const auto& [point, way] : ways)
+    text += (point == ways.front().first ? "" : " and ") + (way + value_text(record, force, *point));
+  return text + ".";
+}
+
+// Of a run without jumps.
+std::string stability_answer(const Record& record, double zero, bool with_state) {
+  const auto loss = std::find_if(record.events.begin(), record.events.end(), loses_stability);
+  if (loss != record.events.end())
+    return fmt::format("Loses stability at λ = {}, at a {}.", shown_lambda(*loss, digits_of_answers),
+                       words(loss->kind));
+  if (record.points.empty() || !std::all_of(record.points.begin(), record.points.end(), is_stable)) return "";
+  const RecordPoint& last = record.points.back();
+  const std::string state = with_state ? state_text(record, zero, last.monitors) : "";
+  return fmt::format("Stable at every point, to λ = {}{}.", shown_number(last.lambda, digits_of_answers),
+                     state.empty() ? "" : ", where " + state);
+}
+
 }  // namespace
 
-std::vector<std::string> answers(const Record& record) {
+std::vector<std::string> answers(const Record& record, std::optional<std::size_t> force) {
   std::vector<std::string> all;
+  const auto add = [&](const std::string& sentence) {
+    if (!sentence.empty()) all.push_back(sentence);
+  };
   const double zero = record.columns.empty() ? 0.0 : roundoff(record).front();
   for (const RecordEvent& event : record.events)
-    if (event.jump) all.push_back(answer(record, zero, event));
-  if (all.empty() && !record.points.empty() && std::all_of(record.points.begin(), record.points.end(), is_stable))
-    all.push_back(
-        fmt::format("Stable at every point, to λ = {}.", shown_number(record.points.back().lambda, digits_of_answers)));
+    if (event.jump) add(answer(record, zero, event));
+  const bool jumps = !all.empty();
+  const auto stages = std::max<std::size_t>(record.stages.size(), 1);
+  for (std::size_t stage = 0; force && stage < stages; ++stage)
+    add(force_answer(record, *force, static_cast<Index>(stage)));
+  if (!jumps) add(stability_answer(record, zero, !force));
   return all;
 }
 

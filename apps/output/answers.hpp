@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +10,8 @@
 namespace arcwall {
 
 /// What a run answers, a sentence each: "Snaps at λ = 6.63, from mid = 0.19 cm to mid = -0.15 cm; releases 0.36 kN cm;
-/// snaps back at λ = 4.57." One for each jump, or one that every point is stable. Empty where neither is known.
-std::vector<std::string> answers(const Record& record);
+/// snaps back at λ = 4.57." One for each jump; of a movement one for each stage, of the greatest and the least `force`,
+/// which is the number of a monitor; without jumps one on stability, where it is known.
+std::vector<std::string> answers(const Record& record, std::optional<std::size_t> force);
 
 }  // namespace arcwall

@@ -76,7 +76,7 @@ PageFields sheet_fields(const Record& record, const ReportContent& content) {
       fmt::format("<svg class=\"defined\" aria-hidden=\"true\"><defs>{}</defs></svg>", wall_paths(content.shapes));
   return {{"title", escaped(report_title(record))},
           {"source", report_source(record)},
-          {"answers", list_of_answers(record)},
+          {"answers", list_of_answers(record, content)},
           {"early", early_ends(record, content.warning)},
           {"curve", svg_chart(path_chart(record, content, main_monitor(record, content)))},
           {"legend", legend_of_lines(record, content.overlays)},

@@ -32,9 +32,9 @@ std::string report_source(const Record& record) {
   return escaped(fmt::format("{}, trace-path {}", plain(record.deck, 200), program_version()));
 }
 
-std::string list_of_answers(const Record& record) {
+std::string list_of_answers(const Record& record, const ReportContent& content) {
   constexpr std::size_t most = 4;
-  std::vector<std::string> all = answers(record);
+  std::vector<std::string> all = answers(record, is_movement(content.loads) ? content.force : std::nullopt);
   if (all.empty()) return "";
   if (all.size() > most) {
     const std::size_t more = all.size() - most;

@@ -20,7 +20,7 @@ std::string report_title(const Record& record);
 std::string report_source(const Record& record);
 
 /// What the run answers, as a list; empty if nothing.
-std::string list_of_answers(const Record& record);
+std::string list_of_answers(const Record& record, const ReportContent& content);
 
 /// What the reader has to know first: which branches did not end where the deck says, why, and what can be done.
 std::string early_ends(const Record& record, const std::string& warning);

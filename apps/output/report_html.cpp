@@ -88,7 +88,7 @@ ReportPage::ReportPage(const Record& record, const ReportContent& content, const
           {"source", report_source(record)},
           {"description", description(content)},
           {"outcome", escaped(outcome(record))},
-          {"answers", list_of_answers(record)},
+          {"answers", list_of_answers(record, content)},
           {"early", early_ends(record, content.warning)},
           {"monitors", monitor_choices(record)},
           {"charts", charts(record, content)},

@@ -245,6 +245,14 @@ test('over the energy the curve is as smooth', async () => {
   await finish();
 });
 
+test('a movement opens at its greatest force', async () => {
+  const { page, finish } = await open(report_of(join(examples, 'snap-fit.toml'), 'snap-fit'));
+  assert.equal(await page.textContent('#happening'), 'turning point – push');
+  const { points } = await data_of(page), shown = Number(await page.textContent('#values tr:nth-child(2) td'));
+  assert.equal(Math.abs(shown), Number(Math.max(...points.monitors[0].map(Math.abs)).toPrecision(7)));
+  await finish();
+});
+
 test('where contacts change the curve has a kink', async () => {
   const { page, finish } = await open(channel);
   const { events, rates } = await data_of(page);

@@ -40,10 +40,13 @@ const shape_as_before = ({ event, part }) => {
   return same ? shape_near(same.point) : Math.round(part * (shapes.length - 1));
 };
 const asked_for = /^#point=(\d+)$/.exec(window.location.hash);  // report.html#point=30
-// The event that matters: the first jump, else the first at which stability may be lost, else the end.
+// The event that matters: the first jump, else the first at which stability may be lost, else of a movement that with the
+// greatest force, else the end.
 const turning = ['limit-point', 'contact-limit-point', 'branch-point'];
 const first_jump = events.find((event) => event.jumps), first_turn = events.find((event) => turning.includes(event.kind));
-const matters = asked_for ? Number(asked_for[1]) : (first_jump ?? first_turn ?? events.find(({ kind }) => kind === 'end'))?.point ?? 0;
+const force_at = ({ point }) => Math.abs(first_axes.up.values[point]);
+const greatest = first_axes.across === load ? events.reduce((one, other) => force_at(other) > force_at(one) ? other : one, events[0]) : undefined;
+const matters = asked_for ? Number(asked_for[1]) : (first_jump ?? first_turn ?? greatest ?? events.find(({ kind }) => kind === 'end'))?.point ?? 0;
 const opening = before ? shape_as_before(before) : shape_near(matters);
 
 if (typeof Plotly === 'undefined') {

@@ -9,6 +9,7 @@
 #include "apps/output/answers.hpp"
 #include "apps/output/report_data.hpp"
 #include "apps/output/report_parts.hpp"
+#include "apps/output/shown_number.hpp"
 #include "tests/apps/output/sample_record.hpp"
 #include "tests/apps/traced_deck.hpp"
 
@@ -302,7 +303,7 @@ TEST(ReportHtml, SaysFirstWhatTheRunAnswers) {
                load = c * from * (from - h) * (from - 2.0 * h);
   const auto potential = [&](double w) { return c * w * w * (w * w / 4.0 - h * w + h * h) - load * w; };
 
-  const std::vector<std::string> said = answers(truss.record());
+  const std::vector<std::string> said = answers(truss.record(), std::nullopt);
 
   ASSERT_EQ(said.size(), 1u);
   std::smatch found;
@@ -322,10 +323,39 @@ TEST(ReportHtml, SaysFirstWhatTheRunAnswers) {
 TEST(ReportHtml, SaysThatEveryPointIsStable) {
   const test::TracedDeck truss(test::example("truss"), {"path.stop.w=[-0.1,0.1]"});
 
-  const std::vector<std::string> said = answers(truss.record());
+  const std::vector<std::string> said = answers(truss.record(), std::nullopt);
 
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_TRUE(said[0].starts_with("Stable at every point, to λ = ")) << said[0];
+  EXPECT_TRUE(std::regex_match(said[0], std::regex("Stable at every point, to λ = .*, where w = 0\\.1 m\\.")))
+      << said[0];
+}
+
+TEST(ReportHtml, SaysWhereStabilityIsLost) {
+  const test::TracedDeck portal(test::example("portal"));
+  const RecordEvent& branch_point = test::event_of(portal, EventKind::branch_point);
+
+  const std::vector<std::string> said = answers(portal.record(), std::nullopt);
+
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0], "Loses stability at λ = " + shown_number(branch_point.lambda, 5) + ", at a branch point.");
+}
+
+// Of a movement the force is the answer: of each stage its greatest and its least, in the order of the path.
+TEST(ReportHtml, SaysTheGreatestForcesOfAMovement) {
+  const test::TracedDeck snap_fit(test::example("snap-fit-friction"));
+  const auto text = [&](int turn) {
+    const RecordEvent& event = test::event_of(snap_fit, EventKind::turning_point, turn);
+    return shown_number(event.monitors[0], 5) + " N at λ = " + shown_number(event.lambda, 5);
+  };
+
+  const std::vector<std::string> said = answers(snap_fit.record(), 0);
+
+  ASSERT_EQ(said.size(), 3u);
+  EXPECT_EQ(said[0], "insert: push rises to " + text(1) + " and falls to " + text(2) + ".");
+  EXPECT_EQ(said[1], "remove: push falls to " + text(3) + " and rises to " + text(4) + ".");
+  EXPECT_TRUE(said[2].starts_with("Stable at every point")) << said[2];
+  const std::string page = page_of(snap_fit.record(), report_content(snap_fit.model(), snap_fit.record(), {}));
+  for (const std::string& sentence : said) EXPECT_NE(page.find("<li>" + sentence + "</li>"), std::string::npos);
 }
 
 }  // namespace
