@@ -131,7 +131,9 @@ std::string legend_of_lines(const Record& record, const std::vector<Overlay>& ov
   if (record.branches.size() > 1) {
     constexpr std::size_t most = 12;
     for (std::size_t i = 0; i < std::min(record.branches.size(), most); ++i)
-      text += fmt::format("<li>{}branch {}</li>", svg_line(branch_colour(static_cast<Index>(i)), Stability::stable), i);
+      text +=
+          fmt::format("<li>{}branch {}{}</li>", svg_line(branch_colour(static_cast<Index>(i)), Stability::stable), i,
+                      record.stages.empty() ? "" : ", " + escaped(shown_name(record.stage_of(static_cast<Index>(i)))));
     if (record.branches.size() > most) text += "<li>… colours repeat</li>";
   }
   for (const Stability stability : met)

@@ -96,6 +96,8 @@ ReportContent report_content(const Model& model, const Record& record, const Dra
                         .shapes = draw(drawn, setting_of(model)),
                         .branch_map = branch_map_section(record, branch_map_of(model, record)),
                         .key_numbers = key_numbers_of(model)};
+  for (const deck::Stage& stage : model.whole_deck().stages)
+    content.loads_of_stages.push_back(driven_by_lambda(model.whole_deck(), &stage));
   const auto add = [&](const std::string& name, const std::string& value) { content.facts.emplace_back(name, value); };
   add("deck", record.deck);
   for (const std::string& assignment : model.deck().source.assignments) add("--set", assignment);

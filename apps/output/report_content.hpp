@@ -18,6 +18,7 @@ struct ReportContent {
   std::string description{};                                 ///< the deck's
   std::string warning{};                                     ///< of the start; may be empty
   std::vector<LoadText> loads{};                             ///< those that λ multiplies
+  std::vector<std::vector<LoadText>> loads_of_stages{};      ///< in each stage; empty without stages
   std::optional<std::size_t> force{};                        ///< first monitor that is a force or a moment
   std::vector<std::string> turning_known{};                  ///< monitors whose turning points are points of the path
   std::string deck_text{};                                   ///< with every default written out

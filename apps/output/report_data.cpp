@@ -101,6 +101,14 @@ OrderedJson columns_json(const Record& record) {
   return columns;
 }
 
+// Of each branch the number of its stage; empty without stages.
+OrderedJson stages_json(const Record& record) {
+  OrderedJson stages = OrderedJson::array();
+  if (record.stages.empty()) return stages;
+  for (const RecordBranch& branch : record.branches) stages.push_back(branch.stage);
+  return stages;
+}
+
 OrderedJson lines_json(const Record& record) {
   OrderedJson lines = OrderedJson::array();
   for (const PathLine& line : path_lines(record))
@@ -329,6 +337,7 @@ OrderedJson report_data(const Record& record, const ShapePictures& shapes) {
           {"energy_unit", shown_name(record.energy_unit)},
           {"points", points_json(record)},
           {"rates", all_rates_json(record)},
+          {"stages", stages_json(record)},
           {"lines", lines_json(record)},
           {"events", events_json(record)},
           {"jumps", jumps_json(record, shapes, greatest)},

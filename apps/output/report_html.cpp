@@ -57,13 +57,23 @@ std::string facts(const ReportContent& content) {
   return text;
 }
 
-std::string load_note(const ReportContent& content) {
+// `of`: a stage; empty without stages.
+std::string load_note(const std::vector<LoadText>& loads, const std::string& of) {
   constexpr std::size_t most = 4;
   std::string text;
-  for (std::size_t i = 0; i < std::min(content.loads.size(), most); ++i)
-    text += (i == 0 ? "" : "; ") + plain(content.loads[i].text, 200);
+  for (std::size_t i = 0; i < std::min(loads.size(), most); ++i)
+    text += (i == 0 ? "" : "; ") + plain(loads[i].text, 200);
   if (text.empty()) return "";
-  return "<p class=\"note\">λ multiplies the " + escaped(text) + (content.loads.size() > most ? "; …" : "") + ".</p>";
+  return "<p class=\"note\">" + escaped(of) + "λ multiplies the " + escaped(text) + (loads.size() > most ? "; …" : "") +
+         ".</p>";
+}
+
+std::string load_notes(const Record& record, const ReportContent& content) {
+  if (content.loads_of_stages.empty()) return load_note(content.loads, "");
+  std::string text;
+  for (std::size_t stage = 0; stage < content.loads_of_stages.size(); ++stage)
+    text += load_note(content.loads_of_stages[stage], "Stage " + shown_name(record.stages[stage]) + ": ");
+  return text;
 }
 
 nlohmann::ordered_json data_of(const Record& record, const ReportContent& content) {
@@ -92,7 +102,7 @@ ReportPage::ReportPage(const Record& record, const ReportContent& content, const
           {"early", early_ends(record, content.warning)},
           {"monitors", monitor_choices(record)},
           {"charts", charts(record, content)},
-          {"load_note", load_note(content)},
+          {"load_note", load_notes(record, content)},
           {"legend", legend(record, content.overlays)},
           {"stage", stage(content.shapes)},
           {"stretch_note", stretch_note(content.shapes)},

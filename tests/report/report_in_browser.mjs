@@ -253,6 +253,21 @@ test('a movement opens at its greatest force', async () => {
   await finish();
 });
 
+test('stages have names, and one axis through all of them', async () => {
+  const { page, finish } = await open(report_of(join(examples, 'snap-fit-friction.toml'), 'snap-fit-friction'));
+  assert.match(await page.textContent('.legend'), /branch 0, insert\s*branch 1, remove/);
+  if (await has_plotly(page)) {
+    await page.selectOption('#monitor', { label: 'arc length through the stages' });
+    const { points } = await data_of(page);
+    const along = await page.evaluate(() => document.getElementById('plot').data.find(({ customdata, mode }) => customdata && mode === 'lines').x);
+    const second = points.branch.indexOf(1);
+    assert.equal(along[second], along[second - 1]);
+    along.forEach((arc, i) => assert.ok(i === 0 || arc >= along[i - 1], `point ${i}`));
+    assert.equal(along.at(-1), points.arc[second - 1] + points.arc.at(-1));
+  }
+  await finish();
+});
+
 test('where contacts change the curve has a kink', async () => {
   const { page, finish } = await open(channel);
   const { events, rates } = await data_of(page);

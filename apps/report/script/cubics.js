@@ -11,7 +11,7 @@ const curve_of_the_path = () => {
       before[key][point] = arriving[k];
       after[key][point] = leaving[k];
     });
-  if (!before.arc) before.arc = after.arc = points.arc.map(() => 1);
+  for (const key of ['arc', 'arc of the run']) if (!before[key]) before[key] = after[key] = points.arc.map(() => 1);
   return { arc: points.arc, values: own, before, after };
 };
 

@@ -17,11 +17,23 @@ for (const event of events) {
 const uncertain = new Map(data.uncertain);
 const load_factor = (point, digits) => uncertain.get(point) ?? round(points.lambda[point], digits);
 
+// Along all stages of a run: a stage goes on where the points of the one before end.
+const through_stages = () => {
+  const stage = (i) => data.stages[points.branch[i]], through = [];
+  let begin = 0;
+  points.arc.forEach((arc, i) => {
+    if (i > 0 && stage(i) !== stage(i - 1)) begin = through[i - 1];
+    through.push(begin + arc);
+  });
+  return through;
+};
+
 // What a point has to be drawn over, or under: λ, the monitors, and what every point has.
 const quantities = [
   { key: 'lambda', name: 'λ', title: data.load_title, values: points.lambda },
   ...columns.map((column, i) => ({ key: column.name, name: column.name, title: column.title, values: points.monitors[i] })),
   { key: 'arc', name: 'arc length', title: 'arc length of the branch', values: points.arc },
+  ...data.stages.length > 0 ? [{ key: 'arc of the run', name: 'arc length through the stages', title: 'arc length through the stages', values: through_stages() }] : [],
   { key: 'energy', name: 'energy', title: data.energy_unit === '' ? 'energy' : `energy [${data.energy_unit}]`, values: points.energy },
   { key: 'contacts', name: 'contacts', title: 'closed contacts', values: points.contacts },
   { key: 'unstable', name: 'unstable', title: 'unstable directions', values: points.unstable },

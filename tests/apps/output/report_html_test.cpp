@@ -356,6 +356,9 @@ TEST(ReportHtml, SaysTheGreatestForcesOfAMovement) {
   EXPECT_TRUE(said[2].starts_with("Stable at every point")) << said[2];
   const std::string page = page_of(snap_fit.record(), report_content(snap_fit.model(), snap_fit.record(), {}));
   for (const std::string& sentence : said) EXPECT_NE(page.find("<li>" + sentence + "</li>"), std::string::npos);
+  for (const char* stage : {"insert", "remove"})
+    EXPECT_NE(page.find("<p class=\"note\">Stage " + std::string(stage) + ": λ multiplies the wall catch by "),
+              std::string::npos);
 }
 
 }  // namespace
