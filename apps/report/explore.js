@@ -433,10 +433,28 @@ const study = () => {
     '[grid]', ...keys.map(line), ...fixed, ''].join('\n');
 };
 const study_file = () => deck.file.split('/').at(-1).replace(/\.toml$/, '') + '-study.toml';
-const save_text = (content, name) => {
-  const link = made('a', { href: URL.createObjectURL(new Blob([content], { type: 'application/toml' })), download: name });
+const save_text = (content, name, type = 'application/toml') => {
+  const link = made('a', { href: URL.createObjectURL(new Blob([content], { type })), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+};
+
+// report.html of the run that is shown, with the pinned curves: what `run` writes carries its own scripts.
+const save_report = async () => {
+  if (last === null) return;
+  const page = new DOMParser().parseFromString(last.page, 'text/html'), [data, ...scripts] = page.scripts, shown_data = last.data;
+  const parts = ['report.css', 'plotly.js', 'report.js'].map(async (part) => (await fetch(part)).text());
+  const [style, library, script] = await Promise.all(parts);
+  page.querySelector('style').textContent = style;
+  data.textContent = JSON.stringify(shown_data).replaceAll('<', '\\u003c');
+  scripts[0].textContent = library;
+  scripts[1].textContent = `${script}show_report(JSON.parse(document.getElementById('data').textContent));\n`;
+  page.querySelector('.legend').append(...shown_data.overlays.map(({ name, colour: own }) => {
+    const item = made('li', { textContent: name });
+    item.style.color = own;
+    return item;
+  }));
+  save_text(`<!DOCTYPE html>\n${page.documentElement.outerHTML}\n`, 'report.html', 'text/html');
 };
 
 element('undo').addEventListener('click', () => { if (undone.length > 0) go_back_to(undone.pop()); });
@@ -453,6 +471,7 @@ element('text').addEventListener('input', () => {
   trace_now();
 });
 element('save-deck').addEventListener('click', () => save_text(text, deck.file.split('/').at(-1)));
+element('save-report').addEventListener('click', save_report);
 element('sweep').addEventListener('click', () => {
   const words = shown.size === 0 ? null : study();
   if (words !== null) save_text(words, study_file());

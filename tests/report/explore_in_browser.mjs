@@ -5,7 +5,7 @@ import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { by_keyboard_alone, desktop, has_no_serious_finding, examples, folder, open, phone, report_of, saved, trace_path } from './browser.mjs';
+import { by_keyboard_alone, desktop, has_no_serious_finding, examples, folder, has_plotly, open, phone, report_of, saved, trace_path } from './browser.mjs';
 import { add, channel_text, explore, move, opened, release, settled, text_of, upper } from './explorer.mjs';
 import { hostile_decks } from './hostile_decks.mjs';
 
@@ -173,6 +173,27 @@ test('pins, undo, reset, the command and the saved deck', async () => {
   await page.click('#reset');
   assert.equal(await text_of(page), channel_text);
   await settled(page);
+  await finish();
+});
+
+test('a report that is saved is one file, with the tables of the page and the pinned curves', async () => {
+  const { address, home } = await explore();
+  const { page, finish } = await opened(address);
+  await page.click('#pin');
+  await add(page, upper);
+  await move(page, upper, '0.21');
+  await settled(page);
+  const [name, bytes] = await saved(page, '#save-report');
+  assert.equal(name, 'report.html');
+  writeFileSync(join(home, name), bytes);
+  const report = await open(join(home, name));
+  assert.deepEqual(await report.page.evaluate((all) => all.map((part) => document.querySelector(part)?.textContent), parts), await tables(page));
+  assert.match(await report.page.textContent('.legend'), /pin 1: as read/);
+  if (await has_plotly(report.page)) {
+    const drawn = (of) => of.evaluate(() => document.getElementById('plot').data.map(({ x, y }) => ({ x, y })));
+    assert.deepEqual((await drawn(report.page)).slice(1, -1), (await drawn(page)).slice(1, -1), 'the curves of the page');
+  }
+  await report.finish();
   await finish();
 });
 
