@@ -507,7 +507,7 @@ ShapePictures draw(const DrawnScenes& drawn, const Setting& setting) {
     result.surfaces.push_back(wall.surface);
     result.bodies.push_back(wall.body);
   }
-  constexpr std::size_t finest = 41, coarsest = 9, most_samples = 80'000;  // about 3 MB
+  constexpr std::size_t finest = 81, coarsest = 9, most_samples = 80'000;  // about 3 MB
   const std::size_t lines = std::max<std::size_t>(scenes.size() * scenes.front().shape.members.size(), 1);
   const std::size_t samples = std::min(finest, most_samples / lines);
   for (std::size_t i = 0; i < scenes.size(); ++i) {

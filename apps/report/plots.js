@@ -16,7 +16,8 @@ const as_text = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').
 const is_narrow = () => window.matchMedia('(max-width: 860px)').matches;
 
 const plot_axis = (title) => ({ title: { text: as_text(title), standoff: 8 }, zeroline: false, gridcolor: colour('grid'),
-  linecolor: colour('edge'), automargin: true, exponentformat: 'power' });  // no 2p for 2·10⁻¹²
+  linecolor: colour('edge'), automargin: true, exponentformat: 'power',  // no 2p for 2·10⁻¹²
+  tickformatstops: [{ dtickrange: [100, 1e5], value: '~f' }] });  // no 0.2·10⁴ for 2000
 
 const plot_layout = (xaxis, yaxis) => ({ autosize: true, xaxis, yaxis, margin: { l: 10, r: 12, t: is_narrow() ? 34 : 28, b: 10 },
   showlegend: false, hovermode: 'closest', dragmode: is_narrow() ? false : 'zoom',

@@ -93,7 +93,7 @@ const ring = (plot) => {
 };
 const draw = (plot, traces, layout, places) => {
   plot.places = places;
-  Plotly.react(plot, [...traces, ring_trace(plot)], { ...layout, legend: { orientation: 'h', y: -0.25, yanchor: 'top' } },
+  Plotly.react(plot, [...traces, ring_trace(plot)], { ...layout, legend: { ...layout.legend, orientation: 'h', y: -0.25, yanchor: 'top' } },
     { ...plot_config, modeBarButtons: [[...plot_buttons, 'resetScale2d']] });
   if (plot.case_of === undefined)
     plot.on('plotly_click', ({ points: [point] }) => {
@@ -143,6 +143,9 @@ const reference = (line, k) => {
   const first = has_numbers(k) ? line.reduce((a, b) => Math.abs(value_of(b, k)) < Math.abs(value_of(a, k)) ? b : a) : line[0];
   return cases.failed[first] === '' && load_of(first) !== 0 ? load_of(first) : null;
 };
+// A legend has the keys as its title, so that a narrow one keeps the values.
+const values_in = (of, i) => as_text(of.map((k) => with_unit(value_of(i, k), keys[k].unit)).join(', '));
+const legend_of = (of) => ({ title: { text: as_text(of.map((k) => keys[k].name).join(', ')), side: 'top', font: { size: 12 } } });
 const draw_lines = (some) => {
   const k = chosen.across, is_part = chosen.measure === 'part';
   const rest = keys.map((_, other) => other).filter((other) => other !== k);
@@ -153,7 +156,7 @@ const draw_lines = (some) => {
     line: { width: 2, color: colour_at(bins > 1 ? bin / (bins - 1) : 0.4) }, showlegend: lines.length > 1 && lines.length <= most }));
   lines.forEach((line, l) => {
     const trace = traces[Math.floor(l * bins / lines.length)], unit = is_part ? reference(line, k) : 1;
-    trace.name = as_text(rest.map((other) => `${keys[other].name} = ${with_unit(value_of(line[0], other), keys[other].unit)}`).join(', '));
+    trace.name = values_in(rest, line[0]);
     for (const i of line) {
       height.set(i, load_of(i) === null || unit === null ? null : load_of(i) / unit);
       trace.x.push(at_axis(i, k));
@@ -167,17 +170,18 @@ const draw_lines = (some) => {
     hovertext: seen.map((i) => hover_text(i) + (is_part ? `<br>${short(height.get(i))} of λ₀` : '')), hoverinfo: 'text',
     marker: { size: 7, symbol: seen.map(symbol_of), color: colour('ink') } });
   const up = plot_axis(is_part ? `part of λ₀, ${loads[chosen.load].title}` : load_title());
-  draw(element('lines'), traces, { ...plot_layout(axis_of(k), up), showlegend: lines.length > 1 && lines.length <= most },
+  draw(element('lines'), traces, { ...plot_layout(axis_of(k), up), showlegend: lines.length > 1 && lines.length <= most, legend: legend_of(rest) },
     new Map(seen.map((i) => [i, [at_axis(i, k), height.get(i)]])));
   element('line-key').textContent = keys[k].name;
 };
 
 const draw_curves = () => {
+  const all = keys.map((_, k) => k);
   const traces = curves.lines.map(({ index, x, y }, c) => ({ type: 'scatter', mode: 'lines+markers', x, y, customdata: x.map(() => index),
     hovertext: x.map((value, p) => `${hover_text(index)}<br>${as_text(curves.across)}: ${value}, λ = ${y[p]}`), hoverinfo: 'text', marker: { size: 4 },
     line: { width: 2, color: colour_at(curves.lines.length > 1 ? c / (curves.lines.length - 1) : 0.4) },
-    name: as_text(keys.map(({ name, unit }, k) => `${name} = ${with_unit(value_of(index, k), unit)}`).join(', ')) }));
-  draw(element('curves'), traces, { ...plot_layout(plot_axis(curves.across), plot_axis(curves.up)), showlegend: traces.length > 1 && traces.length <= 12 }, new Map());
+    name: values_in(all, index) }));
+  draw(element('curves'), traces, { ...plot_layout(plot_axis(curves.across), plot_axis(curves.up)), showlegend: traces.length > 1 && traces.length <= 12, legend: legend_of(all) }, new Map());
   element('curves-note').textContent = curves.lines.length < curves.count ? `${curves.lines.length} of ${curves.count} curves are drawn; curves.csv has all.` : '';
 };
 

@@ -403,6 +403,16 @@ test('two hundred hostile texts', async () => {
   await finish();
 });
 
+test('in a narrow window the sliders stay above the curve', async () => {
+  const { address } = await explore();
+  const { page, finish } = await opened(address, { viewport: { width: 390, height: phone.height } });
+  await add(page, upper);
+  await page.locator('#plot').evaluate((plot) => plot.scrollIntoView({ block: 'end' }));
+  const [slider, plot] = await Promise.all(['.number input[type=range]', '#plot'].map((name) => page.locator(name).boundingBox()));
+  assert.ok(slider.y >= 0 && slider.y + slider.height <= plot.y, `slider at ${slider.y}, curve at ${plot.y}`);
+  await finish();
+});
+
 for (const [viewport, colorScheme] of [[desktop, 'light'], [{ width: 390, height: phone.height }, 'dark']])
   test(`by the keyboard alone, ${viewport.width} wide`, async () => {
     const { address } = await explore(with_a_variable);

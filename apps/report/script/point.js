@@ -47,7 +47,7 @@ const show_shape = (shape) => {
   const contacts = [...shape.contacts].sort((a, b) => b[3] - a[3]);
   const rows = contacts.slice(0, most).map((contact) =>
     [contact[0], `${contact[1]}:${round(contact[2], 4)}`, force(contact)]);
-  if (contacts.length > most) rows.push([`and ${contacts.length - most} more`, '', '']);
+  if (contacts.length > most) rows.push(['', `and ${contacts.length - most} more`, '']);
   element('touching').classList.toggle('none', rows.length === 0);
   while (rows.length > 0 && rows.length < most_rows) rows.push(['\u00a0', '', '']);  // so that the page stays where it is
   fill(element('touching').tBodies[0], rows);

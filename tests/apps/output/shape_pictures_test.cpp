@@ -127,7 +127,7 @@ TEST(ShapePictures, DiagramsKeepTheExtremesOfForces) {
   scene.shape.members.front().points[101].moment = -3.0;
   const auto pictures = draw({{0}, {scene}}, {});
   const auto& samples = pictures.pictures[0].forces.at(0);
-  EXPECT_LT(samples.size(), 50U);
+  EXPECT_LT(samples.size(), 90U);
   EXPECT_TRUE(std::any_of(samples.begin(), samples.end(), [](const auto& one) { return one.moment == -3.0; }));
 }
 
