@@ -123,6 +123,20 @@ Row MultiplierContact::slip_gradient(const State& state, Index j) const {
   return row;
 }
 
+ContactPlace MultiplierContact::place(const State& state, Index j) const {
+  for (const Friction& friction : frictions(state.active_set))
+    if (static_cast<Index>(friction.contact) == j) return {.w = friction.held(state.x)};
+  return {};
+}
+
+ContactPlace MultiplierContact::place_rates(const State& state, const Direction& direction, Index j) const {
+  return {.w = apply(slip_gradient(state, j), direction)};
+}
+
+std::optional<Index> MultiplierContact::force_index(const ActiveSet& active_set, Index j) const {
+  return is_rough(j) ? multiplier_index(active_set, j) : std::nullopt;
+}
+
 std::optional<ModeOfContact> MultiplierContact::beyond_friction_bound(const ActiveSet& active_set, Index guard) const {
   const Index bound = guard - contact_count();
   if (bound < 0 || !has_friction()) return std::nullopt;

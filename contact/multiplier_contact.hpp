@@ -82,7 +82,9 @@ class MultiplierContact final : public System, public FrictionalContact, public 
   std::optional<PathKink> kink_between(const State& from, const State& to) const override;
 
   const FrictionalContact* friction() const override { return rest_friction_ != nullptr ? this : nullptr; }
-  bool is_rough(Index j) const override { return candidate(j).friction() > 0.0; }
+  bool is_rough(Index j) const { return candidate(j).friction() > 0.0; }
+  bool is_rough(const ActiveSet&, Index j) const override { return is_rough(j); }
+  double coefficient(const ActiveSet&, Index j) const override { return candidate(j).friction(); }
   bool share_point(Index j, Index k) const override {
     return is_rough(j) && is_rough(k) && candidate(j).point().unknowns() == candidate(k).point().unknowns();
   }
@@ -90,6 +92,12 @@ class MultiplierContact final : public System, public FrictionalContact, public 
   std::vector<Index> slipping(const ActiveSet& active_set) const override;
   double slip_rate(const State& state, const Direction& direction, Index j) const override;
   double friction_force(const State& state, Index j) const override;
+  Row slip_gradient(const State& state, Index j) const override;
+  double slip(const State& state, Index j) const override;
+  ContactPlace place(const State& state, Index j) const override;
+  ContactPlace place_rates(const State& state, const Direction& direction, Index j) const override;
+  std::optional<Index> force_index(const ActiveSet& active_set, Index j) const override;
+  std::optional<Index> friction_index(const ActiveSet& active_set, Index j) const override;
   std::optional<ModeOfContact> beyond_friction_bound(const ActiveSet& active_set, Index guard) const override;
   State with_modes(const State& state, std::span<const ModeOfContact> modes) const override;
 
@@ -99,16 +107,9 @@ class MultiplierContact final : public System, public FrictionalContact, public 
   /// The closed contacts that stick by friction.
   std::vector<Index> sticking(const ActiveSet& active_set) const;
 
-  /// The index in x of the friction force of a closed contact with friction; empty of others.
-  std::optional<Index> friction_index(const ActiveSet& active_set, Index j) const;
-
   /// Returns the state of a structure that is held where that of `free` is free, from one there: among the candidates
   /// of `free` those whose points can still move, with their forces and histories. `inner`: its inner unknowns.
   State gripped(const MultiplierContact& free, const State& state, const Vector& inner) const;
-
-  /// How far a closed contact with friction has slipped along the obstacle since it closed [length].
-  double slip(const State& state, Index j) const;
-  Row slip_gradient(const State& state, Index j) const;
 
   const Candidate& candidate(Index j) const { return candidates_[static_cast<std::size_t>(j)]; }
   const ContactScales& scales() const { return scales_; }

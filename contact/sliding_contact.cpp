@@ -6,6 +6,7 @@
 
 #include "contact/passing.hpp"
 #include "contact/sliding/bounds/edge_presses.hpp"
+#include "contact/sliding/bounds/friction.hpp"
 #include "contact/sliding/contact_points.hpp"
 #include "contact/sliding/curvature_jumps.hpp"
 #include "contact/sliding/equations.hpp"
@@ -14,6 +15,7 @@
 #include "contact/sliding/lying.hpp"
 #include "contact/sliding/pinches.hpp"
 #include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/rubbing.hpp"
 #include "contact/sliding/spans.hpp"
 #include "contact/sliding/tolerances.hpp"
 #include "contact/sliding/touch.hpp"
@@ -143,6 +145,8 @@ SlidingContact::SlidingContact(const SlidingBody& body, std::vector<SlidingObsta
   setting->pinches = sliding::pinches_at_rest(*setting, SlidingState(rest));
   open_ = sliding::pinched_active_set(*setting, SlidingState(rest));
   setting_ = std::move(setting);
+  for (const SlidingObstacle& obstacle : setting_->obstacles)
+    for (const double friction : obstacle.frictions) has_friction_ = has_friction_ || friction > 0.0;
 }
 
 SlidingContact::~SlidingContact() = default;
@@ -232,14 +236,7 @@ Vector SlidingContact::unit_force(const State& state, Index j) const {
 }
 
 Vector SlidingContact::transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const {
-  const SlidingUnknowns source(from), target(to);
-  const Index rest = source.size() - source.nodes - source.closed;  // of pressed nodes, moments and coordinates
-  Vector moved = Vector::Zero(target.size());
-  moved.head(target.nodes) = x.head(source.nodes);
-  moved.tail(rest) = x.tail(rest);
-  for (std::size_t j = 0; j < to.contacts(); ++j)
-    if (from[j] && to[j]) moved[*target.force(j)] = x[*source.force(j)];
-  return moved;
+  return moved_unknowns(x, from, to);
 }
 
 CountedDirections SlidingContact::counted_directions(const ActiveSet& active_set) const {
@@ -254,7 +251,102 @@ std::vector<Transition> SlidingContact::transitions(const State& state, const Di
   if (auto place = pressed_held_end(*setting_, at, forward.dlambda))
     return {{.change = Transition::Change::blocked, .detail = std::move(*place)}};
   const sliding::ValidityBound& at_hand = bound_of(at, bound);
-  return at_hand.transitions(*setting_, at, {.forward = forward, .tolerance = tolerance, .at_hand = &at_hand});
+  const sliding::Arrival arrival{.forward = forward, .tolerance = tolerance, .at_hand = &at_hand};
+  std::vector<Transition> transitions = at_hand.transitions(*setting_, at, arrival);
+  if (!has_friction_) return transitions;
+  const auto is_unmodelled = [&](const Transition& transition) {
+    if (transition.change == Transition::Change::unsupported) return false;
+    const ActiveSet& ahead = transition.guess.get().active_set;
+    return ahead.layout() != nullptr && !sliding::friction_is_modelled(*setting_, ahead);
+  };
+  if (const auto first = std::find_if(transitions.begin(), transitions.end(), is_unmodelled);
+      first != transitions.end()) {
+    transitions.erase(first, transitions.end());
+    transitions.push_back(sliding::unsupported(sliding::friction_under_pressure()));
+  }
+  return transitions;
+}
+
+// --- friction -------------------------------------------------------------------------------------------------------
+
+double SlidingContact::coefficient(const ActiveSet& active_set, Index j) const {
+  return sliding::friction_coefficient(*setting_, sliding_layout(active_set), static_cast<std::size_t>(j));
+}
+
+std::string SlidingContact::why_not_modelled(const ActiveSet& active_set, Index j) const {
+  const bool at_end = j >= static_cast<Index>(sliding_layout(active_set).points().size());
+  return at_end && is_rough(active_set, j) ? sliding::friction_at_end() : std::string();
+}
+
+std::string SlidingContact::why_friction_is_not_modelled(double toward) const {
+  const State begin = start(toward);
+  return sliding::friction_is_modelled(*setting_, begin.active_set) ? std::string()
+                                                                    : sliding::friction_under_pressure();
+}
+
+ContactMode SlidingContact::mode(const ActiveSet& active_set, Index j) const {
+  const auto contact = static_cast<std::size_t>(j);
+  if (!active_set[contact]) return ContactMode::open;
+  return rubs(active_set, contact) ? sliding_layout(active_set).points()[contact].rubbing.mode : ContactMode::closed;
+}
+
+std::vector<Index> SlidingContact::slipping(const ActiveSet& active_set) const {
+  std::vector<Index> contacts;
+  for (std::size_t k = 0; k < sliding_layout(active_set).points().size(); ++k)
+    if (const auto point = static_cast<Index>(k); slips(mode(active_set, point))) contacts.push_back(point);
+  return contacts;
+}
+
+Row SlidingContact::slip_gradient(const State& state, Index j) const {
+  const SlidingState at(state);
+  if (!slips(mode(state.active_set, j))) return at.no_slope();
+  return sliding::slip_gradient(*setting_, at, static_cast<std::size_t>(j));
+}
+
+double SlidingContact::slip_rate(const State& state, const Direction& direction, Index j) const {
+  const ContactMode now = mode(state.active_set, j);
+  return slips(now) ? slip_sense(now) * apply(slip_gradient(state, j), direction) / scales().length : 0.0;
+}
+
+double SlidingContact::slip(const State& state, Index j) const {
+  return rubs(state.active_set, static_cast<std::size_t>(j))
+             ? sliding::slip_of(*setting_, SlidingState(state), static_cast<std::size_t>(j))
+             : 0.0;
+}
+
+ContactPlace SlidingContact::place(const State& state, Index j) const {
+  return sliding::place_of_rubbing(*setting_, SlidingState(state), static_cast<std::size_t>(j));
+}
+
+ContactPlace SlidingContact::place_rates(const State& state, const Direction& direction, Index j) const {
+  return sliding::rates_of_rubbing(*setting_, SlidingState(state), direction, static_cast<std::size_t>(j));
+}
+
+std::optional<Index> SlidingContact::force_index(const ActiveSet& active_set, Index j) const {
+  const auto contact = static_cast<std::size_t>(j);
+  return rubs(active_set, contact) ? SlidingUnknowns(active_set).force(contact) : std::nullopt;
+}
+
+std::optional<Index> SlidingContact::friction_index(const ActiveSet& active_set, Index j) const {
+  return SlidingUnknowns(active_set).friction(static_cast<std::size_t>(j));
+}
+
+double SlidingContact::friction_force(const State& state, Index j) const {
+  const auto T = friction_index(state.active_set, j);
+  return T ? state.x[*T] : 0.0;
+}
+
+std::optional<ModeOfContact> SlidingContact::beyond_friction_bound(const ActiveSet& active_set, Index guard) const {
+  const auto& bounds = sliding_layout(active_set).bounds();
+  const Index bound = guard - static_cast<Index>(active_set.contacts());
+  if (bound < 0 || bound >= static_cast<Index>(bounds.size())) return std::nullopt;
+  const auto* friction = sliding::as<sliding::FrictionBound>(*bounds[static_cast<std::size_t>(bound)]);
+  if (friction == nullptr) return std::nullopt;
+  return ModeOfContact{.contact = static_cast<Index>(friction->point()), .mode = friction->beyond()};
+}
+
+State SlidingContact::with_modes(const State& state, std::span<const ModeOfContact> modes) const {
+  return sliding::with_modes(*setting_, SlidingState(state), modes);
 }
 
 // Whether a closed contact faces its wall no more.
@@ -386,7 +478,9 @@ State SlidingContact::start(double toward) const {
 }
 
 std::optional<State> SlidingContact::with_strands_come_to_lie(const State& state, double toward) const {
-  return sliding::with_strands_come_to_lie(*setting_, SlidingState(state), toward);
+  auto lying = sliding::with_strands_come_to_lie(*setting_, SlidingState(state), toward);
+  if (lying && !sliding::friction_is_modelled(*setting_, lying->active_set)) lying.reset();
+  return lying;
 }
 
 std::string SlidingContact::why_not_lying(const State& state) const {
@@ -426,7 +520,14 @@ State SlidingContact::gripped(const SlidingContact& free, const State& state) co
     for (std::size_t i = 0; i < before.size(); ++i)
       if (before[i].strand == tips[tip].strand && before[i].position == tips[tip].position)
         result.x[index.tip_moment(tip)] = state.x[at.index.tip_moment(i)];
-  result.x.tail(2 * index.points) = state.x.tail(2 * index.points);  // m and s of the tracked points
+  result.x.segment(index.moment(0), index.points) = state.x.segment(at.index.moment(0), index.points);
+  for (std::size_t k = 0; k < at.layout.points().size(); ++k) {
+    const auto T = index.friction(k);
+    if (!T) continue;
+    result.x[*T] = state.x[*at.index.friction(k)];
+    result.x[*index.place(k)] = state.x[*at.index.place(k)];
+  }
+  result.x.tail(index.points) = state.x.tail(index.points);
   return result;
 }
 

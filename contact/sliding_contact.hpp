@@ -10,6 +10,7 @@
 #include "contact/sliding/given_contacts.hpp"
 #include "contact/sliding/layout.hpp"
 #include "contact/sliding_obstacle.hpp"
+#include "core/frictional_contact.hpp"
 #include "core/sliding_body.hpp"
 #include "core/system.hpp"
 
@@ -24,12 +25,13 @@ struct SlidingSetting;
 ///
 /// g is the gap, t the angle between the body and the wall, p ≥ 0 the contact force; m, a moment that holds the
 /// tangency, vanishes, or at the ends of a pressed part what the body bends more than the wall does. Tracked points are
-/// closed, or open and follow a least gap. Unknowns: x, p, m, s.
+/// closed, or open and follow a least gap. Unknowns: x, p, m, s; of closed points with friction the place on the wall
+/// is held, too, by T, and where it is held is an unknown w.
 ///
 /// Between two closed points on one wall the body may lie on the wall: straight and without pressure, or with nodes
 /// that are pressed on the wall, where wall or body are curved. The guards of an active set are those of its contacts
 /// (the tracked points, then free ends) and, behind them, the bounds of its layout.
-class SlidingContact final : public System, public ContactQuery {
+class SlidingContact final : public System, public ContactQuery, public FrictionalContact {
  public:
   /// `body` must outlive this.
   SlidingContact(const SlidingBody& body, std::vector<SlidingObstacle> obstacles, const ContactScales& scales,
@@ -65,6 +67,28 @@ class SlidingContact final : public System, public ContactQuery {
   std::optional<PathKink> kink_between(const State& from, const State& to) const override;
   Index separate_contacts(const ActiveSet& active_set) const override;
   ActiveSet canonical_active_set(const State& state) const override;
+
+  const FrictionalContact* friction() const override { return has_friction_ ? this : nullptr; }
+  bool is_rough(const ActiveSet& active_set, Index j) const override { return coefficient(active_set, j) > 0.0; }
+  bool contacts_move() const override { return true; }
+  std::string why_not_modelled(const ActiveSet& active_set, Index j) const override;
+  double coefficient(const ActiveSet& active_set, Index j) const override;
+  bool share_point(Index, Index) const override { return false; }
+  ContactMode mode(const ActiveSet& active_set, Index j) const override;
+  std::vector<Index> slipping(const ActiveSet& active_set) const override;
+  double slip_rate(const State& state, const Direction& direction, Index j) const override;
+  Row slip_gradient(const State& state, Index j) const override;
+  double slip(const State& state, Index j) const override;
+  ContactPlace place(const State& state, Index j) const override;
+  ContactPlace place_rates(const State& state, const Direction& direction, Index j) const override;
+  std::optional<Index> force_index(const ActiveSet& active_set, Index j) const override;
+  std::optional<Index> friction_index(const ActiveSet& active_set, Index j) const override;
+  double friction_force(const State& state, Index j) const override;
+  std::optional<ModeOfContact> beyond_friction_bound(const ActiveSet& active_set, Index guard) const override;
+  State with_modes(const State& state, std::span<const ModeOfContact> modes) const override;
+
+  /// Why friction is not modelled where λ goes on from its start towards a value; empty if it is.
+  std::string why_friction_is_not_modelled(double toward) const;
 
   ContactPoint contact(const State& state, Index j) const override;
   double force(const State& state, Index j) const override;
@@ -149,6 +173,7 @@ class SlidingContact final : public System, public ContactQuery {
 
   std::unique_ptr<const SlidingSetting> setting_;
   ActiveSet open_;
+  bool has_friction_ = false;
 };
 
 }  // namespace arcwall

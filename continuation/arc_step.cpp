@@ -126,7 +126,17 @@ Departure leave_smoothly(const TraceTools& tools, const StepOrigin& origin, cons
 std::optional<Index> ended_slip(const TraceTools& tools, const ArcEnd& end) {
   if (!end.event || end.event->what != EventPlace::What::detector) return std::nullopt;
   const EventDetector& detector = tools.detectors[end.event->which];
-  return detector.kind == EventKind::contact_sticks ? std::optional<Index>(std::stol(detector.label)) : std::nullopt;
+  if (detector.kind != EventKind::contact_sticks) return std::nullopt;
+  if (detector.label.empty()) return slowest_slip(*tools.system.friction(), end.point);
+  return std::stol(detector.label);
+}
+
+// Whether contacts with friction change at an arc's end: any of theirs, but not the unknowns at a validity bound.
+bool changes_by_friction(const TraceTools& tools, const ArcEnd& end) {
+  if (!tools.system.has_friction()) return false;
+  const ActiveSet& active_set = end.point.state.active_set;
+  return !end.landing || end.landing->guard < static_cast<Index>(active_set.contacts()) ||
+         is_friction_bound(tools.system, active_set, end.landing->guard);
 }
 
 // The change of contacts at an arc's end.
@@ -139,7 +149,7 @@ CornerPassed pass_corner(TraceTools& tools, const TracerState& state, const ArcE
                 .before = state.from.count_after,
                 .lambda_scale = state.lambda_scale,
                 .without_progress = stands ? state.corners_without_progress + 1 : 0};
-  if (tools.system.has_friction())
+  if (changes_by_friction(tools, end))
     return turn_friction_corner(tools, std::move(corner),
                                 end.landing ? std::optional(end.landing->guard) : std::nullopt, ended_slip(tools, end));
   const bool at_bound = end.landing->guard >= static_cast<Index>(end.point.state.active_set.size());
@@ -216,7 +226,7 @@ std::optional<CornerPassed> leave_active_set(TraceTools& tools, const TracerStat
   if (!end.landing && !ended_slip(tools, end)) return passed;
   passed = pass_corner(tools, state, end, signs_behind(tools, origin, end));
   if (passed->end) return passed;
-  if (tools.system.has_friction()) return passed;  // the place stays
+  if (changes_by_friction(tools, end)) return passed;  // the place stays
   if (const auto value = first_value_between(tools.options.target_values, end.point, passed->ahead().state))
     land_before_active_set_ahead(tools, origin, *value, end, passed);
   return passed;

@@ -68,7 +68,7 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
   }
   at.count = tools.counter.count(at.state, at.negative_eigenvalues);
   std::optional<EnteredActiveSet> entered;
-  if (const auto bound = bound_passed_at(at, tools.options.guard_tolerance); bound && !tools.system.has_friction()) {
+  if (const auto bound = bound_passed_at(tools.system, at, tools.options.guard_tolerance)) {
     CornerPassed passed = pass_bound(tools,
                                      {.at = at,
                                       .slack = -at.guards[*bound],

@@ -20,10 +20,10 @@ std::optional<Index> negative_eigenvalues(const Equations& system, const State& 
   }
   const auto inertia = solver.inner().inertia();
   if (!inertia || !solver.inner_is_regular()) return std::nullopt;
-  if (now.slip_senses.size() > 0)
-    return inertia->negative - multipliers + negative_real_eigenvalues(slip_stiffness(solver, now));
   const auto let_go = sliding_resistance(solver, now).negative();
-  return let_go ? std::optional(inertia->negative - multipliers + *let_go) : std::nullopt;
+  if (!let_go) return std::nullopt;
+  const Index slips = now.slip_senses.size() > 0 ? negative_real_eigenvalues(slip_stiffness(solver, now)) : Index{0};
+  return inertia->negative - multipliers + *let_go + slips;
 }
 
 ActiveSet strictly_active(const UnilateralSystem& system, const State& state, double force_tolerance) {
@@ -66,7 +66,9 @@ Stability StabilityCounter::stability_of_slips(const State& state) {
   if (own_.linearize_at(state) != FactorStatus::ok || !own_.solver().inner_is_regular()) return Stability::undecided;
   const auto inertia = own_.solver().inner().inertia();
   if (!inertia) return Stability::undecided;
-  if (inertia->negative > system_.multiplier_count(state.active_set)) return Stability::unstable;
+  const auto let_go = sliding_resistance(own_.solver(), own_.equations()).negative();
+  if (!let_go) return Stability::undecided;
+  if (inertia->negative + *let_go > system_.multiplier_count(state.active_set)) return Stability::unstable;
   switch (slip_stability(slip_stiffness(own_.solver(), own_.equations()))) {
     case SlipStability::stable:
       return Stability::stable;

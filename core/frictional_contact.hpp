@@ -2,12 +2,24 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/contact_mode.hpp"
 #include "core/state.hpp"
 
 namespace arcwall {
+
+/// How a contact with friction moves along both sides: it is held at the place w of the obstacle, and where contact
+/// moves along the body at the material coordinate s. A length of the body that contact has passed is `stretch` times
+/// that of its axis, so that it slips by dw − Λ ds. At a material point s and Λ are 0.
+struct ContactPlace {
+  double w = 0.0;        ///< along the obstacle's tangent [length]
+  double s = 0.0;        ///< in that sense [length]
+  double stretch = 0.0;  ///< Λ, the mean of both sides [-]
+
+  friend bool operator==(const ContactPlace&, const ContactPlace&) = default;
+};
 
 /// Contacts of a system, some of which have Coulomb friction, |T| ≤ μ p (UnilateralSystem::friction()).
 ///
@@ -17,8 +29,17 @@ class FrictionalContact {
  public:
   virtual ~FrictionalContact() = default;
 
-  /// Returns true if contact j has friction where it is closed.
-  virtual bool is_rough(Index j) const = 0;
+  /// Returns true if contact j of an active set has friction where it is closed.
+  virtual bool is_rough(const ActiveSet& active_set, Index j) const = 0;
+
+  /// Returns true if active sets of a path may have other contacts: numbers of contacts then mean nothing on others.
+  virtual bool contacts_move() const { return false; }
+
+  /// Returns why friction of contact j is not modelled where it closes; empty if it is.
+  virtual std::string why_not_modelled(const ActiveSet&, Index /*j*/) const { return {}; }
+
+  /// Returns its coefficient of friction μ [-].
+  virtual double coefficient(const ActiveSet& active_set, Index j) const = 0;
 
   /// Returns true if two contacts with friction are of one point of the structure.
   virtual bool share_point(Index j, Index k) const = 0;
@@ -32,6 +53,21 @@ class FrictionalContact {
   /// Returns how fast a slipping contact slips in its own sense [length scale a unit of the direction]: ≥ 0 while the
   /// slip lasts.
   virtual double slip_rate(const State& state, const Direction& direction, Index j) const = 0;
+
+  /// Returns the slip along the obstacle's tangent a unit of a direction, as a row; 0 of what does not slip [length].
+  virtual Row slip_gradient(const State& state, Index j) const = 0;
+
+  /// Returns how far a closed contact with friction has slipped along the obstacle since it closed [length].
+  virtual double slip(const State& state, Index j) const = 0;
+
+  /// Returns where a closed contact with friction is, and the rates along a direction.
+  virtual ContactPlace place(const State& state, Index j) const = 0;
+  virtual ContactPlace place_rates(const State& state, const Direction& direction, Index j) const = 0;
+
+  /// Return the indices in x of the contact force p and of the friction force T of a contact; empty of others than
+  /// closed ones with friction.
+  virtual std::optional<Index> force_index(const ActiveSet& active_set, Index j) const = 0;
+  virtual std::optional<Index> friction_index(const ActiveSet& active_set, Index j) const = 0;
 
   /// Returns the friction force T of a contact along the obstacle's tangent, on the structure [force].
   virtual double friction_force(const State& state, Index j) const = 0;

@@ -9,6 +9,13 @@
 
 namespace arcwall {
 
+/// The place on an obstacle that a contact with friction is held at, where contact moves along the body as well: as it
+/// rolls without slip, the place moves by `stretch` times its material coordinate.
+struct RollingPlace {
+  Index place = 0, coordinate = 0;  ///< columns of the border
+  double stretch = 1.0;
+};
+
 /// The equations F(x, λ) = 0 at one state, with their derivatives. Reused from state to state: while the active set
 /// stays the same, the pattern of K does, and only values are written.
 ///
@@ -29,9 +36,10 @@ struct Linearization {
   std::vector<bool> energetic{};           ///< one a column of B: whether its equation is that the energy is stationary
                                            ///< in s_k, but for discretisation: its row of C is then its column of B,
                                            ///< what nothing holds is s_k itself, and y_k says nothing. Empty: none is
-  Vector slip_senses{};                    ///< one a column of B where s_k is the place that a contact with friction is
-                                           ///< held at, and its equation the law of slip: the sense of the slip, 1 or
-                                           ///< −1. Empty: no contact slips
+  Vector slip_senses{};                    ///< one a column of B: where s_k is the place that a contact with friction
+                                           ///< is held at, and its equation the law of slip, the sense of the slip, 1
+                                           ///< or −1, else 0. Empty: no contact slips
+  std::vector<RollingPlace> rolling{};     ///< of contacts with friction that move along the body
   Vector F_lambda{};                       ///< ∂F/∂λ
   std::vector<bool> translation_free{};    ///< nodes on which no force arises where everything moves parallel, but for
                                            ///< ground terms, by unknowns of K: true for the displacement in x of such

@@ -561,10 +561,13 @@ std::vector<SlidingObstacle> sliding_obstacles(const deck::Deck& deck, const Sli
                                .surface = obstacle_of(wall, off),
                                .unmoved = obstacle_of(unmoved, off),
                                .on_face = wall.contact_surface == deck::ContactSurface::face && !wall.outline,
-                               .may_stop_rollers = may_stop_rollers(wall)};
+                               .may_stop_rollers = may_stop_rollers(wall),
+                               .rubs_axis = deck.contact.friction_at == deck::FrictionAt::axis};
       for (Index strand = 0; strand < structure.strands(); ++strand) {
         const bool keeps = kept_off(wall, 2.0 * structure.half_height(strand)) == off;
         obstacle.strands.push_back(concerned(strand) && keeps ? 1 : 0);
+        const auto [member, fraction] = structure.label({.strand = strand, .s = 0.5 * structure.length(strand)});
+        if (deck::has_friction(deck)) obstacle.frictions.push_back(deck::friction_of(deck, wall, member, 0.5));
       }
       obstacles.push_back(std::move(obstacle));
     }

@@ -223,13 +223,14 @@ std::shared_ptr<const Observable> wall_force(const deck::Deck& deck, const Measu
   const deck::Wall& wall = *deck::find(deck.walls, monitor.wall);
   if (from.contacts == nullptr) return std::make_shared<ParameterValue>();
   if (deck::is_of_friction(monitor.component)) {
-    const auto* const at_nodes = dynamic_cast<const MultiplierContact*>(from.contacts);
-    if (at_nodes == nullptr) return std::make_shared<ParameterValue>();
+    const auto* const friction = dynamic_cast<const FrictionalContact*>(from.contacts);
+    if (friction == nullptr) return std::make_shared<ParameterValue>();
     const FrictionAtWall::What what = monitor.component == deck::Component::friction_force ? FrictionAtWall::What::force
                                       : monitor.component == deck::Component::slip         ? FrictionAtWall::What::slip
                                                                                    : FrictionAtWall::What::greatest_use;
     return std::make_shared<FrictionAtWall>(
-        *at_nodes, ContactsOfWall{.wall = wall.name, .member = std::move(member), .fraction = end}, what);
+        *from.contacts, *friction, ContactsOfWall{.wall = wall.name, .member = std::move(member), .fraction = end},
+        what);
   }
   const WallForce::What what = monitor.component == deck::Component::force_x   ? WallForce::What::x
                                : monitor.component == deck::Component::force_z ? WallForce::What::z
@@ -462,9 +463,9 @@ std::shared_ptr<const Observable> shown_by(const deck::Deck& deck, const Measure
   if (is_extreme(monitor.component)) return greatest(deck, from, monitor, OfGreatest::value);
   if (monitor.component == deck::Component::mean_pressure) return mean(deck, from, monitor);
   if (monitor.component == deck::Component::dissipation) {
-    const auto* const at_nodes = dynamic_cast<const MultiplierContact*>(from.contacts);
-    if (at_nodes == nullptr) return std::make_shared<ParameterValue>();  // the deck has other problems
-    return std::make_shared<FrictionPower>(*at_nodes, monitor.wall);
+    const auto* const friction = dynamic_cast<const FrictionalContact*>(from.contacts);
+    if (friction == nullptr) return std::make_shared<ParameterValue>();  // the deck has other problems
+    return std::make_shared<FrictionPower>(*from.contacts, *friction, monitor.wall);
   }
   switch (monitor.of()) {
     case deck::Monitored::wall:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <variant>
@@ -152,8 +153,41 @@ std::vector<std::string> interference_warnings(const deck::Deck& deck, const Mul
   return warnings;
 }
 
+void check_friction_at_start(const SlidingContact& contact, double toward, DeckProblems& problems) {
+  if (const std::string why = contact.why_friction_is_not_modelled(toward); !why.empty())
+    problems.add({}, "contact.points", why, "write points = \"nodes\", or leave it out");
+}
+
+namespace {
+
+// What contact points that move along members ask of friction besides.
+void check_moving_friction(const deck::Deck& deck, const SlidingStructure& sliding, DeckProblems& problems) {
+  for (const deck::Wall& wall : deck.walls) {
+    std::map<Index, double> of_strands;
+    for (const deck::Member& member : deck.members) {
+      const double friction = deck::friction_of(deck, wall, member.name, 0.5);
+      const auto [known, is_new] = of_strands.try_emplace(sliding.find(member.name, 0.5).strand, friction);
+      if (is_new || known->second == friction) continue;
+      problems.add(
+          wall.position, "wall.friction",
+          "contact points move along members, and friction changes where member \"" + member.name + "\" meets the next",
+          "write contact.points = \"nodes\", or one coefficient for both");
+    }
+  }
+  for (const deck::Monitor& monitor : deck.monitors) {
+    if (monitor.component != deck::Component::slip &&
+        !(is_of_friction(monitor.component) && monitor.of() == deck::Monitored::gap))
+      continue;
+    problems.add(monitor.position, "monitor.component",
+                 "contact points move along members, so that no place has friction of its own",
+                 "write contact.points = \"nodes\", or name the wall alone; contacts.csv has the slip of each contact");
+  }
+}
+
+}  // namespace
+
 void check_friction(const deck::Deck& deck, const Structure& structure, const std::vector<Candidate>& candidates,
-                    bool sliding, DeckProblems& problems) {
+                    const SlidingStructure* sliding, DeckProblems& problems) {
   if (!deck::has_friction(deck)) return;
   const auto& springs = structure.nodal_terms().law_springs();
   if (std::any_of(springs.begin(), springs.end(),
@@ -161,9 +195,7 @@ void check_friction(const deck::Deck& deck, const Structure& structure, const st
     problems.add({}, "spring.law", "friction is not known beside laws of straight pieces",
                  "write interpolation = \"smooth\" in the law");
   const auto rough = [](const Candidate& candidate) { return candidate.friction() > 0.0; };
-  if (sliding)
-    problems.add({}, "contact.points", "friction is known for contact at nodes and at free ends alone",
-                 "write points = \"nodes\", or leave it out");
+  if (sliding != nullptr) check_moving_friction(deck, *sliding, problems);
   if (deck.contact.method != ContactLaw::Method::rigid && !deck.contact.is_compliant())
     problems.add({}, "contact.method", "springs in place of walls have no friction",
                  "contact.method = \"multiplier\" has");

@@ -30,9 +30,12 @@ bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::
 std::vector<std::string> interference_warnings(const deck::Deck& deck, const MultiplierContact& at_nodes,
                                                const SlidingContact* sliding);
 
-/// Adds what a deck with friction asks for that friction does not know.
+/// Adds what a deck with friction asks for that friction does not know. `sliding`: null for contact at nodes.
 void check_friction(const deck::Deck& deck, const Structure& structure, const std::vector<Candidate>& candidates,
-                    bool sliding, DeckProblems& problems);
+                    const SlidingStructure* sliding, DeckProblems& problems);
+
+/// Adds members that lie on walls with friction at the start. `toward`: where λ goes from there.
+void check_friction_at_start(const SlidingContact& contact, double toward, DeckProblems& problems);
 
 /// Whether λ moves a structure.
 bool moves_something(const Structure& structure);

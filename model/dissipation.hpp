@@ -2,17 +2,17 @@
 
 #include <vector>
 
-#include "contact/multiplier_contact.hpp"
+#include "core/frictional_contact.hpp"
 #include "model/record.hpp"
 
 namespace arcwall {
 
-/// The slips along a direction at a state. `unit`: the user's length over that of the model.
-std::vector<RecordSlip> slips_along(const MultiplierContact& contacts, const State& state, const Direction& direction,
+/// The slips along a direction at a state; none without friction. `unit`: the user's length over that of the model.
+std::vector<RecordSlip> slips_along(const FrictionalContact* contacts, const State& state, const Direction& direction,
                                     double unit);
 
-/// What friction dissipates while a slip goes from one end of an arc to the other, −∫ T dw, with cubics of T and w by
-/// the arc length (docs/theory.md, section 18.4). ≥ 0.
+/// What friction dissipates while a slip goes from one end of an arc to the other, −∫ T (dw − Λ ds), with cubics of T,
+/// w, Λ and s by the arc length (docs/theory.md, section 18.4). ≥ 0.
 double dissipated(const RecordSlip& from, const RecordSlip& to, double arc_length);
 
 /// Closed contacts that slip.

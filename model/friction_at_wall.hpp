@@ -3,7 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "contact/multiplier_contact.hpp"
+#include "contact/contact_point.hpp"
+#include "core/frictional_contact.hpp"
 #include "core/observable.hpp"
 
 namespace arcwall {
@@ -17,9 +18,9 @@ class FrictionAtWall final : public Observable {
     greatest_use  ///< the greatest |T|/(μ p); not a number where no contact is closed [-]
   };
 
-  /// `contacts` must outlive this.
-  FrictionAtWall(const MultiplierContact& contacts, ContactsOfWall of, What what)
-      : contacts_(contacts), of_(std::move(of)), what_(what) {}
+  /// `contacts` and their `friction` must outlive this.
+  FrictionAtWall(const ContactQuery& contacts, const FrictionalContact& friction, ContactsOfWall of, What what)
+      : contacts_(contacts), friction_(friction), of_(std::move(of)), what_(what) {}
 
   double value(const State& state) const override;
   Row gradient(const State& state) const override;
@@ -28,7 +29,10 @@ class FrictionAtWall final : public Observable {
   template <typename Visit>
   void for_each(const State& state, const Visit& visit) const;
 
-  const MultiplierContact& contacts_;
+  double use_of(const State& state, Index j) const;
+
+  const ContactQuery& contacts_;
+  const FrictionalContact& friction_;
   ContactsOfWall of_;
   What what_;
 };
@@ -37,14 +41,16 @@ class FrictionAtWall final : public Observable {
 /// what friction has dissipated. That itself is no function of the state: value() is 0, and a Recorder integrates.
 class FrictionPower final : public Observable {
  public:
-  /// `contacts` must outlive this. `wall`: empty for all.
-  FrictionPower(const MultiplierContact& contacts, std::string wall) : contacts_(contacts), wall_(std::move(wall)) {}
+  /// `contacts` and their `friction` must outlive this. `wall`: empty for all.
+  FrictionPower(const ContactQuery& contacts, const FrictionalContact& friction, std::string wall)
+      : contacts_(contacts), friction_(friction), wall_(std::move(wall)) {}
 
   double value(const State&) const override { return 0.0; }
   Row gradient(const State& state) const override;
 
  private:
-  const MultiplierContact& contacts_;
+  const ContactQuery& contacts_;
+  const FrictionalContact& friction_;
   std::string wall_;
 };
 

@@ -139,7 +139,7 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
   std::vector<Candidate> candidates;
   if (!deck().contact.is_compliant()) candidates = contact_candidates(deck(), structure(), pinched, at_rest);
   const bool sliding = slides(deck(), described.builder, candidates, problems);
-  if (stage_ == 0) check_friction(deck(), structure(), candidates, sliding, problems);
+  if (stage_ == 0) check_friction(deck(), structure(), candidates, sliding ? sliding_structure() : nullptr, problems);
   if (!sliding) path_.sliding_structure.reset();
   if (!sliding) check_hollow_corners(deck(), problems);
   std::vector<std::uint8_t> node_contacts;
@@ -150,6 +150,8 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
   if (problems.empty() && has_ramp()) ramp_ = make_ramp(described, until_stiffened);
   if (sliding && stage_ == 0 && problems.empty())
     check_between_nodes(deck(), ramp_ ? *ramp_->sliding : *path_.sliding, problems);
+  if (sliding && stage_ == 0 && problems.empty() && path_.sliding->has_friction())
+    check_friction_at_start(ramp_ ? *ramp_->sliding : *path_.sliding, ramp_ ? 1.0 : deck().path.step, problems);
   const Measured read_off{.structure = structure(),
                           .body = body(),
                           .places = described.places,

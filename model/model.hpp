@@ -82,6 +82,9 @@ class Model {
   /// Returns contact with moving points; null for node contact.
   const SlidingContact* sliding() const { return path_.sliding.get(); }
 
+  /// Returns the friction of the contacts; null if there is none.
+  const FrictionalContact* friction() const { return dynamic_cast<const FrictionalContact*>(contacts()); }
+
   /// Returns the state with the kink statuses of spring laws; computes missing ones from the elongations.
   State with_kinks(State state) const { return path_.with_kinks(std::move(state)); }
 

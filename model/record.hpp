@@ -8,6 +8,7 @@
 
 #include "contact/candidate.hpp"
 #include "continuation/path_point.hpp"
+#include "core/frictional_contact.hpp"
 
 /// Results of a run: plain values for the output files, and the states.
 namespace arcwall {
@@ -34,8 +35,8 @@ struct RecordSlip {
   Index contact = 0;   ///< its number
   double force = 0.0;  ///< T, along the wall's tangent [force]
   double force_rate = 0.0;
-  double slip = 0.0;  ///< likewise [length]
-  double slip_rate = 0.0;
+  ContactPlace place{};  ///< [length]
+  ContactPlace rates{};
 
   friend bool operator==(const RecordSlip&, const RecordSlip&) = default;
 };

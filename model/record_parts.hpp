@@ -29,7 +29,8 @@ void parts(Archive& archive, RecordFrictionWay& way) {
 
 template <typename Archive>
 void parts(Archive& archive, RecordSlip& slip) {
-  archive(slip.contact, slip.force, slip.force_rate, slip.slip, slip.slip_rate);
+  archive(slip.contact, slip.force, slip.force_rate, slip.place.w, slip.place.s, slip.place.stretch, slip.rates.w,
+          slip.rates.s, slip.rates.stretch);
 }
 
 template <typename Archive>

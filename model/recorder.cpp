@@ -154,11 +154,11 @@ std::vector<double> Recorder::dissipation_until(const PathTangent& arrives, doub
   const RecordPoint& before = record_.points.back();
   std::vector<double> sums = before.dissipation;
   const std::vector<deck::Wall>& walls = model_->deck().walls;
-  const auto slips = slips_along(*model_->contact(), arrives.state, arrives.tangent, model_->frame().factor());
+  const auto slips = slips_along(model_->friction(), arrives.state, arrives.tangent, model_->frame().factor());
   for (const RecordSlip& from : before.slips)
     for (const RecordSlip& to : slips) {
       if (from.contact != to.contact) continue;
-      const std::string& name = model_->contact()->candidate(to.contact).label().wall;
+      const std::string name = model_->contacts()->contact(arrives.state, to.contact).label.wall;
       const auto wall = deck::find(walls, name) - walls.data();
       sums[static_cast<std::size_t>(wall)] += dissipated(from, to, arc - before.arc);
     }
@@ -186,7 +186,7 @@ void Recorder::add(const Arc& arc, const PathPoint& leaves) {
        .dissipation = dissipation,
        .slips = dissipation.empty()
                     ? std::vector<RecordSlip>()
-                    : slips_along(*model_->contact(), leaves.state, leaves.tangent, model_->frame().factor()),
+                    : slips_along(model_->friction(), leaves.state, leaves.tangent, model_->frame().factor()),
        .rates = rates_along(model_, arrives.state, arrives.tangent),
        .rates_after = has_kink ? rates_along(model_, leaves.state, leaves.tangent) : std::nullopt,
        .state = to.state});

@@ -125,6 +125,15 @@ Rate work_rate(const Model& model, const State& state, double longest) {
         return model.system().energy(moved);
       },
       longest);
+  if (const SlidingContact* const sliding = model.sliding()) {
+    Linearization now;
+    sliding->linearize(state, now);  // the rows of forces have the rates of gaps and places, with the other sign
+    for (Index j = 0; j < static_cast<Index>(state.active_set.contacts()); ++j)
+      for (const auto force :
+           {sliding->enforcement(state.active_set, j).multiplier, sliding->friction_index(state.active_set, j)})
+        if (force) rate.value += state.x[*force] * now.F_lambda[*force];
+    return rate;
+  }
   const MultiplierContact& contacts = *model.contact();
   Gap field;
   for (Index j = 0; j < contacts.contact_count(); ++j) {
@@ -140,8 +149,55 @@ Rate work_rate(const Model& model, const State& state, double longest) {
   return rate;
 }
 
+// The point of a layout that another layout has: its contacts may be more or fewer.
+std::optional<Index> same_point(const State& from, Index point, const State& to) {
+  const SlidingContactLayout &here = sliding_layout(from.active_set), &there = sliding_layout(to.active_set);
+  const auto k = static_cast<std::size_t>(point);
+  const double s = mesh_state_of(from).s[point];
+  std::optional<Index> nearest;
+  for (Index other = 0; other < there.mesh().breakpoints(); ++other) {
+    if (there.points()[static_cast<std::size_t>(other)].obstacle != here.points()[k].obstacle ||
+        there.mesh().breakpoint(other).first != here.mesh().breakpoint(point).first)
+      continue;
+    const auto off = [&](Index candidate) { return std::abs(mesh_state_of(to).s[candidate] - s); };
+    if (!nearest || off(other) < off(*nearest)) nearest = other;
+  }
+  return nearest;
+}
+
+// −∫ T (dw − Λ ds) of the points that move along members.
+Quadrature dissipated_by_points(const SlidingContact& contacts, const std::vector<const RecordPoint*>& points,
+                                const Samples& arc) {
+  Quadrature sum;
+  const State& first = points.front()->state;
+  for (Index k = 0; k < sliding_layout(first.active_set).mesh().breakpoints(); ++k) {
+    const std::size_t obstacle = sliding_layout(first.active_set).points()[static_cast<std::size_t>(k)].obstacle;
+    const double round = contacts.obstacles()[obstacle].surface->round_length();
+    Samples against, against_rolled, w, s;
+    bool rubs_at_all = false;
+    for (const RecordPoint* point : points) {
+      const State& state = point->state;
+      const auto j = same_point(first, k, state);
+      if (!j) break;
+      ContactPlace place = contacts.place(state, *j);
+      if (round > 0.0 && !w.empty()) place.w += round * std::round((w.back() - place.w) / round);
+      const double T = contacts.friction_force(state, *j);
+      rubs_at_all = rubs_at_all || rubs(state.active_set, static_cast<std::size_t>(*j));
+      against.push_back(-T);
+      against_rolled.push_back(T * place.stretch);
+      w.push_back(place.w);
+      s.push_back(place.s);
+    }
+    if (!rubs_at_all || w.size() != points.size()) continue;
+    sum += integral(arc, against, w);
+    sum += integral(arc, against_rolled, s);
+  }
+  return sum;
+}
+
 // −∫ T dw of all contacts along a piece, from what the states tell of T and w.
 Quadrature dissipated(const Model& model, const std::vector<const RecordPoint*>& points, const Samples& s) {
+  if (model.sliding() != nullptr) return dissipated_by_points(*model.sliding(), points, s);
   const MultiplierContact& contacts = *model.contact();
   Quadrature sum;
   for (Index j = 0; j < contacts.contact_count(); ++j) {

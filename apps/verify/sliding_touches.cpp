@@ -192,6 +192,30 @@ void part_pinching_force(Touch& first, Touch& other) {
   first.two_sided = other.two_sided = other.closed = true;
 }
 
+// Of a closed point with friction; the deck gives its coefficient.
+FrictionAtTouch friction_at(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const Touch& touch,
+                            const SlidingNode& node, std::size_t point, double force) {
+  const bool on_axis = at->model.deck().contact.friction_at == deck::FrictionAt::axis;
+  const double half = at->body.half_height(node.strand);
+  const auto place = [=, &wall, function = touch.gap](const Vector& u) {
+    const AxisPlace axis = at->place(node, function, u);
+    return on_axis ? axis.position : face_towards(wall, half, axis);
+  };
+  const double sign = wall.has_outline() || wall.deck().side == Side::below ? 1.0 : -1.0;
+  const Vec2 tangent = sign * unit_tangent(wall.slope_angle(place(touch.gap.at)));
+  const ContactPoint told = at->model.contacts()->contact(at->state, static_cast<Index>(point));
+  FrictionAtTouch friction{
+      .along = touch.gap,
+      .force = force,
+      .coefficient = deck::friction_of(at->model.deck(), wall.deck(), touch.label.member, touch.label.fraction),
+      .slips = slips(told.friction->mode),
+      .slip = told.friction->slip};
+  friction.along.slopes = nullptr;
+  friction.along.bends = nullptr;
+  friction.along.of = [place, tangent](const Vector& u) { return tangent.dot(place(u)); };
+  return friction;
+}
+
 }  // namespace
 
 Vec2 face_towards(const PlainWall& wall, double half_height, const AxisPlace& place) {
@@ -212,13 +236,18 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
   };
   const auto& points = at->on.points();
   const auto& pinched = at->on.pinched_points();
-  const Index moments = state.x.size() - 2 * at->mesh.breakpoints();
+  Index rubbing = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) rubbing += rubs(state.active_set, k) ? 1 : 0;
+  const Index moments = state.x.size() - 2 * at->mesh.breakpoints() - rubbing;  // behind friction forces
+  Index friction = moments - rubbing;
   const auto& tips = at->on.pressed_tips();
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto [strand, position] = at->mesh.breakpoint(static_cast<Index>(k));
     const SlidingNode node{.strand = strand, .position = position};
     const PlainWall& wall = wall_of_obstacle(*at, walls, points[k].obstacle);
     const Touch& touch = add(wall, node, state.active_set[k] != 0);
+    if (rubs(state.active_set, k))
+      touches.all.back().friction = friction_at(at, wall, touch, node, k, state.x[friction++]);
     const AxisPlace axis = at->mesh.node(strand, position, at->now);
     std::optional<SlidingContact::PinchedPlace> pinch;
     if (points[k].is_pinched()) pinch = pinch_of(*at, wall.deck().name, axis.position);
@@ -228,7 +257,7 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
     }
     if (!pinch) continue;
     const auto behind = std::find(pinched.begin(), pinched.end(), k);
-    const Index along = moments - static_cast<Index>(tips.size()) - (pinched.end() - behind);
+    const Index along = moments - rubbing - static_cast<Index>(tips.size()) - (pinched.end() - behind);
     touches.pinched.push_back(pinched_at(at, touch.label, node, k, state.x[along]));
     touches.all.push_back(sliding_touch(at, wall_of(walls, pinch->other), node));
     Touch &first = touches.all[touches.all.size() - 2], &other = touches.all.back();
@@ -239,7 +268,7 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
     const SlidingNode node{.strand = tips[i].strand, .position = tips[i].position};
     const PlainWall& wall = wall_of_obstacle(*at, walls, tips[i].obstacle);
     touches.tangencies.push_back(tangency(at, wall, sliding_touch(at, wall, node), node, std::nullopt));
-    touches.tangencies.back().moment = state.x[moments - static_cast<Index>(tips.size() - i)];
+    touches.tangencies.back().moment = state.x[moments - rubbing - static_cast<Index>(tips.size() - i)];
   }
   const auto ends = model.sliding()->ends();
   for (std::size_t i = 0; i < ends.size(); ++i) {

@@ -80,13 +80,31 @@ CurvatureGap gap_of_curvatures_gradient(const SlidingSetting& setting, const Sli
   return out;
 }
 
+namespace {
+
+// The side that bends nearest to the obstacle: friction makes thrust and, on faces, curvature jump.
+SlidingMesh::At nearest_side(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  using enum SlidingMesh::At;
+  if (!at.rubs(point)) return free_side(at.layout, point);
+  const Touch touch = touch_of_contact(setting, at.layout, point);
+  const auto gap = [&](SlidingMesh::At side) {
+    return gap_of_curvatures(setting, at, touch, at.mesh.strain(static_cast<Index>(point), side, at.now));
+  };
+  return gap(behind) < gap(before) ? behind : before;
+}
+
+}  // namespace
+
 double curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  return gap_of_curvatures(setting, at, touch_of_contact(setting, at.layout, point), strain_of_free_side(at, point));
+  const SlidingMesh::At side = nearest_side(setting, at, point);
+  return gap_of_curvatures(setting, at, touch_of_contact(setting, at.layout, point),
+                           at.mesh.strain(static_cast<Index>(point), side, at.now));
 }
 
 CurvatureGap curvature_gap_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  const SlidingMesh::At side = nearest_side(setting, at, point);
   return gap_of_curvatures_gradient(setting, at, touch_of_contact(setting, at.layout, point),
-                                    strain_gradient_of_free_side(at, point));
+                                    at.mesh.strain_gradient(static_cast<Index>(point), side, at.now));
 }
 
 double end_curvature_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {

@@ -5,6 +5,7 @@
 #include "contact/sliding/part_loads.hpp"
 #include "contact/sliding/pinches.hpp"
 #include "contact/sliding/pressed_part.hpp"
+#include "contact/sliding/rubbing.hpp"
 #include "contact/sliding/touch.hpp"
 #include "contact/sliding/validity_bound.hpp"
 
@@ -60,6 +61,17 @@ ContactPoint at_pinch(const SlidingSetting& setting, const SlidingState& at, std
   return contact;
 }
 
+void add_friction(const SlidingSetting& setting, const SlidingState& at, std::size_t j, ContactPoint& contact) {
+  const NodeFunction place = touched_place(setting, touch_of_contact(setting, at.layout, j), at, 0.0);
+  contact.friction = FrictionOfContact{.mode = at.layout.points()[j].rubbing.mode,
+                                       .force = at.state.x[*at.index.friction(j)],
+                                       .coefficient = friction_coefficient(setting, at.layout, j),
+                                       .slip = slip_of(setting, at, j),
+                                       .tangent = place.gradient.head<2>().normalized()};
+  contact.force_vector += contact.friction->force * contact.friction->tangent;
+  if (contact.friction->mode == ContactMode::sticks) contact.friction->anchor = contact.place.x();
+}
+
 // Of the pressed parts that end at a closed contact, on its wall.
 std::vector<PressureAtEnd> pressures_at(const SlidingSetting& setting, const SlidingState& at, std::size_t j) {
   std::vector<PressureAtEnd> pressures;
@@ -94,7 +106,11 @@ ContactPoint at_closed(const SlidingSetting& setting, const SlidingState& at, st
 
 ContactPoint contact_point(const SlidingSetting& setting, const SlidingState& at, std::size_t j) {
   if (at.layout.is_pinched(j)) return at_pinch(setting, at, j, false);
-  if (j < at.contacts()) return at_node(setting, at, touch_of_contact(setting, at.layout, j), at.force(j));
+  if (j < at.contacts()) {
+    ContactPoint contact = at_node(setting, at, touch_of_contact(setting, at.layout, j), at.force(j));
+    if (at.rubs(j)) add_friction(setting, at, j, contact);
+    return contact;
+  }
   return at_bound(setting, at, *at.layout.bounds()[j - at.contacts()]);
 }
 

@@ -5,6 +5,7 @@
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/neutral_spans.hpp"
 #include "contact/sliding/pinches.hpp"
+#include "contact/sliding/rubbing.hpp"
 #include "contact/sliding/tips.hpp"
 #include "contact/sliding/touch.hpp"
 #include "core/algebra/assembly.hpp"
@@ -15,8 +16,17 @@ namespace {
 
 using NeutralSpan = SlidingContactLayout::NeutralSpan;
 
+// σ − w.
+NodeFunction off_held_place(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
+                            std::size_t point) {
+  const double w = at.state.x[*at.index.place(point)];
+  NodeFunction place = touched_place(setting, touch, at, w);
+  place.value -= w;
+  return place;
+}
+
 // visit(function of a node, its touch, index of the multiplier) for all constraints −f = 0 of nodes: gaps, neutral
-// spans' middles, places and directions at pinches, tangency.
+// spans' middles, places and directions at pinches, places that friction holds, tangency.
 template <typename Visit>
 void for_each_constraint(const SlidingSetting& setting, const SlidingState& at, const Visit& visit) {
   const auto visit_gap = [&](const Touch& touch, Index force) {
@@ -49,6 +59,12 @@ void for_each_constraint(const SlidingSetting& setting, const SlidingState& at, 
   // Free to turn, a tip up to which a part is pressed would leave the nodes beside it with forces 13, −4, 1 % off.
   for (std::size_t i = 0; i < on.pressed_tips().size(); ++i)
     visit_tilt(touch_of_tip(setting, on.pressed_tips()[i]), at.index.tip_moment(i));
+  if (at.index.rubbing > 0)
+    for (std::size_t k = 0; k < on.points().size(); ++k) {
+      if (!at.rubs(k)) continue;
+      const Touch touch = touch_of_contact(setting, on, k);
+      visit([&, k] { return off_held_place(setting, at, touch, k); }, touch, *at.index.friction(k));
+    }
   for (std::size_t k = 0; k < on.points().size(); ++k)
     if (!on.is_pinched(k)) visit_tilt(touch_of_contact(setting, on, k), at.index.moment(static_cast<Index>(k)));
 }
@@ -171,6 +187,10 @@ void lay_out(const SlidingSetting& setting, const SlidingState& at, Linearizatio
   });
   out.holding.clear();
   out.energetic.clear();
+  for (Index i = 0; i < at.index.rubbing; ++i) {
+    out.holding.push_back(at.index.moment(0) - at.index.rubbing + i);
+    out.energetic.push_back(false);
+  }
   for (Index k = 0; k < at.index.points; ++k) {
     out.holding.push_back(at.index.moment(k));
     out.energetic.push_back(at.layout.is_pinched(static_cast<std::size_t>(k)));
@@ -186,8 +206,8 @@ void take_over(const Linearization& mesh, const SlidingState& at, Linearization&
   out.F.head(n) = mesh.F;
   out.F_lambda.setZero(at.index.size());
   out.F_lambda.head(n) = mesh.F_lambda;
-  out.B.setZero(at.index.of_K(), at.index.points);
-  out.B.topRows(n) = mesh.B;
+  out.B.setZero(at.index.of_K(), at.index.border());
+  out.B.topRightCorner(n, at.index.points) = mesh.B;
   copy_values(mesh.K, out.K);
 }
 
@@ -259,6 +279,39 @@ WallAction wall_action(const SlidingSetting& setting, const SlidingState& at, co
   return action;
 }
 
+namespace {
+
+void add_friction_to_residual(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F) {
+  for (std::size_t k = 0; k < at.layout.points().size(); ++k)
+    if (const auto w = at.index.place(k)) F[*w] = law_of_friction(setting, at, k).value;
+}
+
+// The border of places that friction holds: their columns in the rows of T, and the laws of friction.
+void add_friction(const SlidingSetting& setting, const SlidingState& at, Linearization& out) {
+  const Index n = at.index.of_K();
+  out.rolling.clear();
+  out.slip_senses.resize(0);
+  if (at.index.rubbing == 0) return;
+  for (std::size_t k = 0; k < at.layout.points().size(); ++k) {
+    const auto w = at.index.place(k);
+    if (!w) continue;
+    const LawOfFriction law = law_of_friction(setting, at, k);
+    out.F[*w] = law.value;
+    out.F_lambda[*w] = law.row.dlambda;
+    out.C.row(*w - n) = law.row.dx.transpose();
+    out.B(*at.index.friction(k), *w - n) = 1.0;
+    const ContactMode mode = at.layout.points()[k].rubbing.mode;
+    if (slips(mode) && out.slip_senses.size() == 0) out.slip_senses = Vector::Zero(at.index.border());
+    if (slips(mode)) out.slip_senses[*w - n] = slip_sense(mode);
+    const auto point = static_cast<Index>(k);
+    out.rolling.push_back({.place = *w - n,
+                           .coordinate = at.index.coordinate(point) - n,
+                           .stretch = body_sense(setting, at, k) * mean_stretch(setting, at, k)});
+  }
+}
+
+}  // namespace
+
 void residual(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F) {
   at.mesh.residual(at.now, F.head(at.index.nodes));
   for_each_constraint(setting, at, [&](const auto& function, const Touch& touch, Index multiplier) {
@@ -268,6 +321,7 @@ void residual(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<
     add_at_node(unknowns, c * tilt.value * tilt.gradient, F);
   });
   for_each_free_direction(setting, at, [&](Index m) { F[m] = -at.state.x[m] * compliance(setting); });
+  if (at.index.rubbing > 0) add_friction_to_residual(setting, at, F);
   for (Index k = 0; k < at.index.points; ++k) F[at.index.coordinate(k)] = border_equation(setting, at, k).value;
 }
 
@@ -280,7 +334,8 @@ void linearize(const SlidingSetting& setting, const SlidingState& at, Linearizat
   if (!out.pattern_of || *out.pattern_of != at.state.active_set) lay_out(setting, at, out);
 
   take_over(mesh, at, out);
-  out.border_rates = border_rates(setting, at);
+  out.border_rates = Vector::Zero(at.index.border());  // T truly holds
+  out.border_rates.tail(at.index.points) = border_rates(setting, at);
   for_each_constraint(setting, at, [&](const auto& function, const Touch& touch, Index multiplier) {
     const NodeFunction constraint = function();
     const NodeUnknowns unknowns = unknowns_at(touch, at);
@@ -296,11 +351,12 @@ void linearize(const SlidingSetting& setting, const SlidingState& at, Linearizat
     out.F[m] = -at.state.x[m] * compliance(setting);
     out.K.coeffRef(m, m) = -compliance(setting);
   });
-  out.C.resize(at.index.points, at.index.size());
+  out.C.resize(at.index.border(), at.index.size());
+  add_friction(setting, at, out);
   for (Index k = 0; k < at.index.points; ++k) {
     const BorderEquation equation = border_equation(setting, at, k);
     out.F[at.index.coordinate(k)] = equation.value;
-    out.C.row(k) = equation.row.dx.transpose();
+    out.C.row(at.index.rubbing + k) = equation.row.dx.transpose();
     out.F_lambda[at.index.coordinate(k)] = equation.row.dlambda;
   }
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/contact_mode.hpp"
 #include "core/sliding_body.hpp"
 
 namespace arcwall {
@@ -23,6 +24,18 @@ class SlidingContactLayout final : public SlidingLayout {
     pressed,  ///< on the wall; the nodes between are pressed on it
   };
 
+  /// What a closed point does along an obstacle with friction, and where it began to: the anchor of a stick, (18.10) of
+  /// docs/theory.md. `open`: the contact has no friction, or is open.
+  struct Rubbing {
+    ContactMode mode = ContactMode::open;
+    double w = 0.0;        ///< place on the obstacle [length]
+    double s = 0.0;        ///< material coordinate [length]
+    double stretch = 1.0;  ///< mean stretch of the face on both sides
+    double slipped = 0.0;  ///< along the obstacle since the contact closed, up to there [length]
+
+    bool rubs() const { return mode != ContactMode::open; }
+  };
+
   /// A tracked point: one a breakpoint of the mesh.
   struct Point {
     std::size_t obstacle = 0;
@@ -35,6 +48,8 @@ class SlidingContactLayout final : public SlidingLayout {
     /// Of a point that waits for its first touch: the elements that the part which it divides has without it. 0: it
     /// does not wait.
     int undivided = 0;
+
+    Rubbing rubbing{};
 
     bool is_pinched() const { return pinch.has_value(); }
     bool waits() const { return undivided > 0; }
@@ -189,6 +204,12 @@ class SlidingContactLayout final : public SlidingLayout {
 /// The layout of an active set of sliding contact.
 inline const SlidingContactLayout& sliding_layout(const ActiveSet& active_set) {
   return static_cast<const SlidingContactLayout&>(*active_set.layout());
+}
+
+/// Whether a contact of such an active set is a closed point with friction.
+inline bool rubs(const ActiveSet& active_set, std::size_t contact) {
+  const auto& points = sliding_layout(active_set).points();
+  return contact < points.size() && active_set[contact] != 0 && points[contact].rubbing.rubs();
 }
 
 }  // namespace arcwall

@@ -217,6 +217,8 @@ std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elem
   insert_at(strands, k, entry.strand);
   insert_at(closed, k, static_cast<std::uint8_t>(entry.closed));
   insert_at(forces, k, entry.force);
+  insert_at(frictions, k, 0.0);
+  insert_at(held, k, 0.0);
   s = inserted(s, k, entry.s);
   if (!entry.point.waits()) touch(k);
   return k;
@@ -262,6 +264,8 @@ void LayoutEdit::erase(std::size_t point, int of_both) {
   erase_at(strands, point);
   erase_at(closed, point);
   erase_at(forces, point);
+  erase_at(frictions, point);
+  erase_at(held, point);
   s = erased(s, point);
   set_undivided(run_around(strand, before), std::max(1, all));
 }
@@ -299,6 +303,8 @@ LayoutEdit edit_of(const SlidingBody& body, const SlidingState& at) {
     edit.strands.push_back(at.mesh.breakpoint(static_cast<Index>(k)).first);
     edit.closed.push_back(at.is_closed(k));
     edit.forces.push_back(at.force(k));
+    edit.frictions.push_back(at.rubs(k) ? at.state.x[*at.index.friction(k)] : 0.0);
+    edit.held.push_back(at.rubs(k) ? at.state.x[*at.index.place(k)] : 0.0);
   }
   for (std::size_t k = 0; k < edit.points.size(); ++k)
     if (edit.closed[k] && edit.points[k].waits()) edit.touch(k);

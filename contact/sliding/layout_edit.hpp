@@ -15,6 +15,8 @@ struct LayoutEdit {
   std::vector<Index> strands{};        ///< of the points, ascending
   std::vector<std::uint8_t> closed{};  ///< of the points
   std::vector<double> forces{};        ///< of the points; those of open ones do not matter
+  std::vector<double> frictions{};     ///< of the points, along the obstacle; likewise of those without friction
+  std::vector<double> held{};          ///< the places on the obstacle that friction holds these at [length]
   Vector s{};                          ///< of the points
   SlidingContactLayout::Lying lying{};
 

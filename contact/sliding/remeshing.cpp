@@ -32,6 +32,12 @@ State mapped_onto(const SlidingSetting& setting, const SlidingState& at, const L
   out.x.head(index.nodes) = at.mesh.transferred(at.now, on->mesh(), edit.s);
   for (std::size_t j = 0; j < active_set.size(); ++j)
     if (const auto p = index.force(j)) out.x[*p] = j < points ? edit.forces[j] : edit.end_forces[j - points];
+  for (std::size_t k = 0; k < points; ++k) {
+    const auto T = index.friction(k);
+    if (!T) continue;
+    out.x[*T] = edit.frictions[k];
+    out.x[*index.place(k)] = edit.held[k];
+  }
   out.x.tail(edit.s.size()) = edit.s;
   return out;
 }

@@ -129,6 +129,18 @@ TouchGap touch_gap(const SlidingSetting& setting, const Touch& touch, const Slid
   return out;
 }
 
+NodeFunction touched_place(const SlidingSetting& setting, const Touch& touch, const SlidingState& at, double near) {
+  const AxisPlace axis = touch.axis(at);
+  const SlidingObstacle& obstacle = setting.obstacles[touch.obstacle];
+  const double offset = obstacle.rubbing_offset(setting.body.half_height(touch.strand));
+  NodeFunction place = at_face(obstacle.surface->arc_length(face(offset, axis), at.now.lambda), offset, axis);
+  if (sign_of(obstacle.surface->side()) < 0.0) place = opposite(place);
+  if (const double round = obstacle.surface->round_length(); round > 0.0)
+    place.value += round * std::round((near - place.value) / round);
+  add_motion_of_node(at.mesh.node_rate(touch.strand, touch.position), place);
+  return place;
+}
+
 void add_at_node(const NodeUnknowns& unknowns, const Eigen::Vector3d& values, Eigen::Ref<Vector> to) {
   for (std::size_t i = 0; i < 3; ++i)
     if (unknowns[i] >= 0) to[unknowns[i]] += values[static_cast<Index>(i)];

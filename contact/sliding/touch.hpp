@@ -63,6 +63,10 @@ struct TouchGap {
 };
 TouchGap touch_gap(const SlidingSetting& setting, const Touch& touch, const SlidingState& at);
 
+/// The arc length along the obstacle, with the body to its left, of the place nearest to where friction acts at a
+/// touch; of a closed obstacle the round that is nearest to `near` [length].
+NodeFunction touched_place(const SlidingSetting& setting, const Touch& touch, const SlidingState& at, double near);
+
 /// Adds what is given by a node's x, z and rotation to the places of these in a vector; held ones are left out.
 void add_at_node(const NodeUnknowns& unknowns, const Eigen::Vector3d& values, Eigen::Ref<Vector> to);
 

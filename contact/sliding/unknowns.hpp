@@ -17,10 +17,13 @@ namespace arcwall {
 ///     p   `neutral`  forces that hold the middles of neutral spans            multipliers, with −c = 0
 ///     τ   `pinched`  forces along the axis at pinched points                  multipliers, with −c = 0
 ///     m   `tips`     moments that hold the tangency at pressed tips           multipliers, with −t = 0
+///     T   `rubbing`  forces of friction, of closed points in their order      multipliers, with w − σ = 0
 ///     m   `points`   moments that hold the tangency at the tracked points     multipliers, with −t = 0
+///     w   `rubbing`  places on the obstacle that hold the closed points       the border, with the law of friction
 ///     s   `points`   material coordinates of the tracked points               the border
 ///
-/// All but s are unknowns of K. Equations stand in the same order; that of s_k says that the body may slide at point k.
+/// All but w and s are unknowns of K. Equations stand in the same order; that of s_k says that the body may slide at
+/// point k.
 class SlidingUnknowns {
  public:
   /// `active_set` must outlive this.
@@ -32,11 +35,13 @@ class SlidingUnknowns {
   Index neutral = 0;  ///< neutral spans
   Index pinched = 0;  ///< pinched points
   Index tips = 0;     ///< pressed tips
+  Index rubbing = 0;  ///< closed points with friction
   Index points = 0;   ///< tracked points
 
-  Index multipliers() const { return closed + pressed + neutral + pinched + tips + points; }
+  Index multipliers() const { return closed + pressed + neutral + pinched + tips + rubbing + points; }
   Index of_K() const { return nodes + multipliers(); }
-  Index size() const { return of_K() + points; }
+  Index border() const { return rubbing + points; }
+  Index size() const { return of_K() + border(); }
 
   /// Index of the force of a contact in State::x; empty where it is open.
   std::optional<Index> force(std::size_t contact) const;
@@ -45,12 +50,21 @@ class SlidingUnknowns {
   Index holding_force(std::size_t span) const { return nodes + closed + pressed + static_cast<Index>(span); }
   Index force_along(std::size_t pinched_point) const { return holding_force(0) + neutral + Index(pinched_point); }
   Index tip_moment(std::size_t tip) const { return force_along(0) + pinched + static_cast<Index>(tip); }
-  Index moment(Index point) const { return tip_moment(0) + tips + point; }
-  Index coordinate(Index point) const { return of_K() + point; }
+  Index moment(Index point) const { return tip_moment(0) + tips + rubbing + point; }
+  Index coordinate(Index point) const { return of_K() + rubbing + point; }
+
+  /// Index of the friction force of a contact, and of the place that holds it; empty without friction.
+  std::optional<Index> friction(std::size_t contact) const;
+  std::optional<Index> place(std::size_t contact) const;
 
  private:
+  std::optional<Index> rank(std::size_t contact) const;
+
   const ActiveSet* active_set_;
 };
+
+/// Unknowns for another active set of the same points and mesh; what is new there is zero.
+Vector moved_unknowns(const Vector& x, const ActiveSet& from, const ActiveSet& to);
 
 /// Numbers at the places of segments that several bounds have in common. Each is computed when it is first asked for.
 class SharedByBounds {
@@ -86,6 +100,7 @@ struct SlidingState {
   std::size_t contacts() const { return state.active_set.contacts(); }
   bool is_closed(std::size_t contact) const { return state.active_set[contact] != 0; }
   double s(Index point) const { return now.s[point]; }
+  bool rubs(std::size_t contact) const { return arcwall::rubs(state.active_set, contact); }
 
   /// Of a contact, 0 where it is open [force].
   double force(std::size_t contact) const {

@@ -7,6 +7,7 @@
 #include "contact/sliding/bounds/end_stays.hpp"
 #include "contact/sliding/bounds/flat_part.hpp"
 #include "contact/sliding/bounds/free_end.hpp"
+#include "contact/sliding/bounds/friction.hpp"
 #include "contact/sliding/bounds/holding_moment.hpp"
 #include "contact/sliding/bounds/length.hpp"
 #include "contact/sliding/bounds/load.hpp"
@@ -122,6 +123,12 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
       add_if<TailBound>(has_tail(body, on, strand, last), bounds, strand, last,
                         on.point_at_end(strand, last).value_or(0));
     }
+  for (std::size_t k = 0; k < on.points().size(); ++k) {
+    if (on.points()[k].rubbing.mode != ContactMode::sticks) continue;
+    for (const ContactMode beyond : {ContactMode::slips_backward, ContactMode::slips_forward})
+      add_if<FrictionBound>(true, bounds, k, beyond);
+    add_if<RollingBound>(true, bounds, k);
+  }
   return bounds;
 }
 

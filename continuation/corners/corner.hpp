@@ -55,9 +55,12 @@ CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> 
 /// Passes a validity bound of an active set (spreading, gathering, …), `bound` among its guards.
 CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound);
 
-/// The lowest of the validity bounds that a point has passed, if one has been. A span that has just begun may still be
-/// shorter than its bound, and grows: that one is not passed.
-std::optional<Index> bound_passed_at(const PathPoint& at, double tolerance);
+/// The lowest of the validity bounds that a point has passed, if one has been. Bounds of friction are none of them. A
+/// span that has just begun may still be shorter than its bound, and grows: that one is not passed.
+std::optional<Index> bound_passed_at(const System& system, const PathPoint& at, double tolerance);
+
+/// Whether a guard of an active set is that of a stick, μ p − |T| ≥ 0: behind it contacts change, not unknowns.
+bool is_friction_bound(const System& system, const ActiveSet& active_set, Index guard);
 
 /// Returns the signs of the detectors' values behind a corner that one way leaves. Where the counts exclude that λ
 /// turns there, λ′ of another sign is round-off, and the sign is that of before.

@@ -68,8 +68,9 @@ std::vector<BoundContact> choices_at(const TraceTools& tools, const Corner& corn
     const ContactMode mode = friction.mode(active_set, j);
     const bool touches = std::abs(corner.at.guards[j]) <= tolerance || landed == j;
     if (touches && !system.enforcement(active_set, j).two_sided) {
-      std::vector<ContactMode> modes =
-          friction.is_rough(j) ? std::vector{sticks, open, slips_forward, slips_backward} : std::vector{closed, open};
+      std::vector<ContactMode> modes = friction.is_rough(active_set, j)
+                                           ? std::vector{sticks, open, slips_forward, slips_backward}
+                                           : std::vector{closed, open};
       if (mode != open) std::swap(modes[0], modes[1]);
       choices.push_back({.contact = j, .modes = std::move(modes), .touches = true});
     } else if (slips(mode) && ended == j) {
@@ -108,10 +109,15 @@ std::optional<Continuation> tangent_with(TraceTools& tools, const Corner& corner
   way.direction = unit(metric, std::move(way.direction));
   if (!way.direction.dx.allFinite()) return std::nullopt;
   way.slipping = friction.slipping(way.state.active_set);
-  way.relieved = Vector::Zero(now.B.cols());
-  if (now.B.cols() > 0 && solver.inner_is_regular())
-    way.relieved = slip_stiffness(solver, now).diagonal().cwiseProduct(way.direction.dx.tail(now.B.cols())).cwiseAbs() /
-                   system.multiplier_scale();
+  const auto slips = static_cast<Index>(way.slipping.size());
+  way.relieved = Vector::Zero(slips);
+  if (slips > 0 && solver.inner_is_regular()) {
+    const Matrix D = slip_stiffness(solver, now);
+    for (Index i = 0; i < slips; ++i) {
+      const Row slip = friction.slip_gradient(way.state, way.slipping[static_cast<std::size_t>(i)]);
+      way.relieved[i] = std::abs(D(i, i) * apply(slip, way.direction)) / system.multiplier_scale();
+    }
+  }
   return way;
 }
 
@@ -153,7 +159,7 @@ std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& cor
     const ContactMode mode = friction.mode(active_set, j);
     const double rate = along.rates[j];
     if (mode == open && rate < -no_motion)
-      found.push_back({.contact = j, .mode = friction.is_rough(j) ? sticks : closed});
+      found.push_back({.contact = j, .mode = friction.is_rough(active_set, j) ? sticks : closed});
     else if (mode != open && choice.touches && rate < -no_force)
       found.push_back({.contact = j, .mode = open});
     else if (slips(mode) && sense_of_slip(friction, way, j, no_motion, no_force) < (overcome.contains(j) ? 0 : 1))
@@ -373,9 +379,18 @@ std::vector<EventDetector> slip_end_detectors(const System& system) {
   std::vector<EventDetector> detectors;
   const FrictionalContact* const friction = system.friction();
   if (friction == nullptr) return detectors;
-  const auto contacts = static_cast<Index>(system.open_active_set().contacts());
-  for (Index j = 0; j < contacts; ++j) {
-    if (!friction->is_rough(j)) continue;
+  const ActiveSet open = system.open_active_set();
+  if (friction->contacts_move()) {
+    const auto least = [friction](const PathPoint& at) {
+      const auto slip = slowest_slip(*friction, at);
+      return slip ? friction->slip_rate(at.state, at.tangent, *slip) : 0.0;
+    };
+    detectors.push_back(
+        {.kind = EventKind::contact_sticks, .crossing = Crossing::falling, .value = least, .integral = nullptr});
+    return detectors;
+  }
+  for (Index j = 0; j < static_cast<Index>(open.contacts()); ++j) {
+    if (!friction->is_rough(open, j)) continue;
     const auto rate = [friction, j](const PathPoint& at) { return friction->slip_rate(at.state, at.tangent, j); };
     // The place is an unknown, so that the rate along the unknowns themselves is the slip.
     const auto slip = [friction, j](const PathPoint& at) {
@@ -390,11 +405,21 @@ std::vector<EventDetector> slip_end_detectors(const System& system) {
   return detectors;
 }
 
+std::optional<Index> slowest_slip(const FrictionalContact& friction, const PathPoint& at) {
+  std::optional<Index> slowest;
+  const auto rate = [&](Index j) { return friction.slip_rate(at.state, at.tangent, j); };
+  for (const Index j : friction.slipping(at.state.active_set))
+    if (!slowest || rate(j) < rate(*slowest)) slowest = j;
+  return slowest;
+}
+
 bool may_change_at_start(const TraceTools& tools, const PathPoint& at) {
   if (!tools.system.has_friction()) return false;
-  const Index bounds = at.guards.size() - static_cast<Index>(at.state.active_set.contacts());
-  return !tools.system.slipping(at.state.active_set).empty() ||
-         (at.guards.tail(bounds).array() <= tools.options.guard_tolerance).any() ||
+  const ActiveSet& active_set = at.state.active_set;
+  for (auto guard = static_cast<Index>(active_set.contacts()); guard < at.guards.size(); ++guard)
+    if (at.guards[guard] <= tools.options.guard_tolerance && is_friction_bound(tools.system, active_set, guard))
+      return true;
+  return !tools.system.slipping(active_set).empty() ||
          !degenerate_contacts(at.guards, at.state.active_set, tools.options.guard_tolerance).empty();
 }
 
@@ -412,6 +437,13 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
   if (would_hold_twice(*tools.system.friction(), corner.at.state.active_set, choices)) {
     passed.end = {.reason = EndReason::not_modelled,
                   .detail = with_place("two frictions at one end are not determined by equilibrium", place)};
+    return passed;
+  }
+  for (const BoundContact& choice : choices) {
+    if (!choice.touches) continue;
+    std::string why = tools.system.friction()->why_not_modelled(corner.at.state.active_set, choice.contact);
+    if (why.empty()) continue;
+    passed.end = {.reason = EndReason::not_modelled, .detail = with_place(std::move(why), place)};
     return passed;
   }
   const double sense = corner.at.tangent.dlambda < 0.0 ? -1.0 : 1.0;

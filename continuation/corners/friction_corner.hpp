@@ -11,6 +11,9 @@ namespace arcwall {
 /// the path.
 std::vector<EventDetector> slip_end_detectors(const System& system);
 
+/// The contact of a point that slips slowest in its own sense, the first whose slip ends; empty where none slips.
+std::optional<Index> slowest_slip(const FrictionalContact& friction, const PathPoint& at);
+
 /// Leaves a point at which contacts with friction may change what they do (docs/theory.md, section 18). `landed`: the
 /// guard that was landed on, if one was; `ended`: the contact whose slip has ended there, if one has.
 CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optional<Index> landed,

@@ -135,10 +135,15 @@ void add_pitchfork(const PathPoint& at, const PathPoint& begin, BranchPoint poin
 
 }  // namespace
 
-std::optional<Index> bound_passed_at(const PathPoint& at, double tolerance) {
+bool is_friction_bound(const System& system, const ActiveSet& active_set, Index guard) {
+  return system.has_friction() && system.friction()->beyond_friction_bound(active_set, guard).has_value();
+}
+
+std::optional<Index> bound_passed_at(const System& system, const PathPoint& at, double tolerance) {
   std::optional<Index> lowest;
   for (auto j = static_cast<Index>(at.state.active_set.size()); j < at.guards.size(); ++j)
-    if (at.guards[j] < -tolerance && at.guard_rates[j] <= 0.0 && (!lowest || at.guards[j] < at.guards[*lowest]))
+    if (at.guards[j] < -tolerance && at.guard_rates[j] <= 0.0 && (!lowest || at.guards[j] < at.guards[*lowest]) &&
+        !is_friction_bound(system, at.state.active_set, j))
       lowest = j;
   return lowest;
 }
@@ -184,7 +189,7 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
     only_remeshed = only_remeshed && entered->transition->change == Transition::Change::remeshed;
     // Bounds that are reached together are passed one after the other: the new mesh may have shifted those behind the
     // first past their zero.
-    const auto next = only_remeshed ? bound_passed_at(passed.at, tools.options.guard_tolerance)
+    const auto next = only_remeshed ? bound_passed_at(tools.system, passed.at, tools.options.guard_tolerance)
                                     : mesh_bound_behind(tools.system, passed.at, tools.options.guard_tolerance);
     if (!next) return passed;
     if (++passed.without_progress > most_bounds_at_one_place) {

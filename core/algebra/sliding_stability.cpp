@@ -20,6 +20,13 @@ bool is_energetic(const Linearization& equations, Index k) {
 
 }  // namespace
 
+Matrix reduced_rolling(const BorderedSolver& solver, const Linearization& equations) {
+  Matrix D = solver.reduced();
+  for (const RollingPlace& rolling : equations.rolling)
+    D.col(rolling.coordinate) += rolling.stretch * D.col(rolling.place);
+  return D;
+}
+
 // T = −(D_ff − D_fh D_hh⁻¹ D_hf) diag(1/w), f free to slide and h held, with D = C_x K⁻¹ B − C_s: singular where ∂F/∂x
 // is, since det ∂F/∂x = ± det K det D. The continuum's T is symmetric, a mesh's but for discretisation error. Where the
 // energy is stationary in s_k, w = 1.
@@ -33,14 +40,16 @@ SlidingResistance sliding_resistance(const BorderedSolver& solver, const Lineari
     }
   std::vector<Index> sliding, held;
   for (Index k = 0; k < rates.size(); ++k) {
-    if (rates[k] == 0.0) held.push_back(k);
+    const bool slips = equations.slip_senses.size() > 0 && equations.slip_senses[k] != 0.0;
+    if (rates[k] == 0.0 && !slips) held.push_back(k);
     if (rates[k] == 0.0 || is_energetic(equations, k)) continue;
     sliding.push_back(k);
     resistance.released.push_back(equations.holding[static_cast<std::size_t>(k)]);
   }
   sliding.insert(sliding.end(), resistance.slides.begin(), resistance.slides.end());
-  const Matrix& D = solver.reduced();
   if (sliding.empty()) return resistance;
+  const Matrix rolled = equations.rolling.empty() ? Matrix() : reduced_rolling(solver, equations);
+  const Matrix& D = equations.rolling.empty() ? solver.reduced() : rolled;
   Matrix T = D(sliding, sliding);
   if (!held.empty()) {
     const Eigen::PartialPivLU<Matrix> within(D(held, held));

@@ -6,6 +6,10 @@
 
 namespace arcwall {
 
+/// C_x K⁻¹ B − C_s for motions in which contacts with friction that move along the body roll: columns of their
+/// coordinates are at fixed slips, not at fixed places on the obstacle.
+Matrix reduced_rolling(const BorderedSolver& solver, const Linearization& equations);
+
 /// What a body resists motions by that the y_k of a border hold, where it may slide instead; and the sliding itself
 /// where the energy is stationary in it.
 struct SlidingResistance {
@@ -17,7 +21,8 @@ struct SlidingResistance {
   std::optional<Index> negative() const;
 };
 
-/// Of the equations that `solver` has factorized, K being regular; their border_rates tell what is let go.
+/// Of the equations that `solver` has factorized, K being regular; their border_rates tell what is let go. Contacts
+/// that slip do not.
 SlidingResistance sliding_resistance(const BorderedSolver& solver, const Linearization& equations);
 
 /// K with the y_k that a resistance names let go against it: singular where K is regular and ∂F/∂x is not.

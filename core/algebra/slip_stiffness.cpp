@@ -1,8 +1,11 @@
 #include "core/algebra/slip_stiffness.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <vector>
+
+#include "core/algebra/sliding_stability.hpp"
 
 namespace arcwall {
 
@@ -30,10 +33,18 @@ bool starts_with(const Matrix& D, const std::vector<Index>& moving, const std::v
 
 }  // namespace
 
-// With R = C_x K⁻¹ B − C_s for the held places w: the laws of slip change by −R δw, and w = ± y.
+// With R = C_x K⁻¹ B − C_s for the held places w: the laws of slip change by −R δw, and w = ± y. What else is in the
+// border is eliminated; contacts that move along the body do so without slip.
 Matrix slip_stiffness(const BorderedSolver& solver, const Linearization& equations) {
-  const auto senses = equations.slip_senses.asDiagonal();
-  return -(senses * solver.reduced() * senses);
+  std::vector<Index> slips, others;
+  for (Index k = 0; k < equations.slip_senses.size(); ++k)
+    (equations.slip_senses[k] != 0.0 ? slips : others).push_back(k);
+  const Vector of_slips = equations.slip_senses(slips);
+  const auto senses = of_slips.asDiagonal();
+  if (others.empty()) return -(senses * solver.reduced() * senses);
+  const Matrix R = reduced_rolling(solver, equations);
+  const Eigen::PartialPivLU<Matrix> within(R(others, others));
+  return -(senses * (R(slips, slips) - R(slips, others) * within.solve(Matrix(R(others, slips)))) * senses);
 }
 
 Index negative_real_eigenvalues(const Matrix& D) {

@@ -6,7 +6,7 @@ namespace arcwall {
 
 /// The slip stiffness D_ij = −∂(|T_i| − μ p_i)/∂y_j of contacts that slip, y ≥ 0 the slip of each in its own sense, all
 /// else in equilibrium at constant λ: by how much slip that goes on takes from what drives it. `solver` has factorized
-/// `equations`, whose border is that of slips, K being regular.
+/// `equations`, K being regular. Of the border's other equations all hold.
 Matrix slip_stiffness(const BorderedSolver& solver, const Linearization& equations);
 
 /// The number of negative real eigenvalues.

@@ -20,9 +20,14 @@ constexpr std::int64_t greatest(SlidingContactLayout::Span) {
 }
 
 template <typename Archive>
+void parts(Archive& archive, SlidingContactLayout::Rubbing& rubbing) {
+  archive(rubbing.mode, rubbing.w, rubbing.s, rubbing.stretch, rubbing.slipped);
+}
+
+template <typename Archive>
 void parts(Archive& archive, SlidingContactLayout::Point& point) {
   archive(point.obstacle, point.behind, point.before, point.neutral_behind, point.neutral_before, point.pinch,
-          point.undivided);
+          point.undivided, point.rubbing);
 }
 
 template <typename Archive>

@@ -82,6 +82,17 @@ const std::vector<Layouts>& layouts() {
       {"a flat tail", {3, 4}, {{.obstacle = 0, .behind = Span::flat}}, {0.3}, {1}},
       {"a pressed tail", {3, 6}, {{.obstacle = 1, .behind = Span::pressed}}, {0.3}, {1}},
       {"a pressed tail before a point", {6, 2}, {{.obstacle = 1, .before = Span::pressed}}, {0.3}, {1}},
+      {"a point that slips",
+       {3, 4},
+       {{.obstacle = 0, .rubbing = {.mode = ContactMode::slips_backward, .s = 0.2}}},
+       {0.3},
+       {1}},
+      {"points that stick and slip",
+       {3, 3, 2},
+       {{.obstacle = 0, .rubbing = {.mode = ContactMode::sticks, .w = 0.1, .s = 0.2, .stretch = 1.1}},
+        {.obstacle = 1, .rubbing = {.mode = ContactMode::slips_forward}}},
+       {0.3, 0.65},
+       {1, 1}},
       {"more elements than asked for", {8, 24}, {{.obstacle = 0}}, {0.3}, {1}},
   };
   return all;
@@ -126,7 +137,9 @@ TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWallsSlow) {
     const auto walls = test::all_walls(on_axis);
     for (std::size_t kind = 0; kind < walls.size() / 2; ++kind)
       for (const bool reversed : {false, true}) {
-        const SlidingModel model(wavy_beam(reversed), two_of(walls, kind), 0.1);
+        auto both = two_of(walls, kind);
+        for (test::TestWall& wall : both) wall.friction = 0.3;
+        const SlidingModel model(wavy_beam(reversed), both, 0.1);
         for (const Layouts& on : layouts()) {
           SCOPED_TRACE(on.name + ", wall " + std::to_string(kind) + (reversed ? ", reversed" : ""));
           const State state = random_state(model, active_set_of(model, on), numbers);

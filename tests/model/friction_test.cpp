@@ -247,7 +247,6 @@ TEST(Friction, DecksThatAskForMoreAreRejected) {
               "friction must not be negative: it is the ratio of the greatest friction force to the contact force");
   expect_said(with_friction("\"rough\""),
               "friction is a number, e.g. 0.3; for a contact that never slips give a large one, e.g. 1e3");
-  expect_said(good + "[contact]\npoints = \"moving\"\n", "at nodes");
   expect_said(good + "[contact]\nmethod = \"penalty\"\npenalty = 1.0\n",
               "springs in place of walls have no friction; contact.method = \"multiplier\" has");
   expect_said(good + "[[friction]]\nmember = \"stripp\"\ncoefficient = 0.1\n",

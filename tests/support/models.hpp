@@ -144,7 +144,8 @@ struct TestWall {
   Side side = Side::above;
   std::shared_ptr<const Profile> profile{};
   bool on_axis = false;
-  RigidMotion motion{};  ///< of the wall, by λ
+  RigidMotion motion{};   ///< of the wall, by λ
+  double friction = 0.0;  ///< for points that move
 
   std::shared_ptr<const Obstacle> obstacle() const;
 };

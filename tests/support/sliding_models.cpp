@@ -19,10 +19,12 @@ SlidingModel::SlidingModel(const StructureBuilder& builder, const std::vector<Te
                                 tied->force_roundoff() / TraceOptions{}.guard_tolerance);
   std::vector<SlidingObstacle> obstacles;
   for (const TestWall& wall : walls)
-    obstacles.push_back({.name = wall.name,
-                         .surface = wall.obstacle(),
-                         .on_face = !wall.on_axis,
-                         .strands = std::vector<std::uint8_t>(static_cast<std::size_t>(structure_->strands()), 1)});
+    obstacles.push_back(
+        {.name = wall.name,
+         .surface = wall.obstacle(),
+         .on_face = !wall.on_axis,
+         .strands = std::vector<std::uint8_t>(static_cast<std::size_t>(structure_->strands()), 1),
+         .frictions = std::vector<double>(static_cast<std::size_t>(structure_->strands()), wall.friction)});
   contact_ = std::make_unique<SlidingContact>(*structure_, std::move(obstacles),
                                               ContactScales{.length = tied->length_scale(), .force = force}, continuum);
 }

@@ -74,7 +74,7 @@ TEST(PathCubics, TheEnergyFollowsTheForceOnAMovedWallWithoutWhatFrictionDissipat
     const std::optional<RecordRates>& rates = leaving_rates(point);
     ASSERT_TRUE(rates);
     double power = 0.0;
-    for (const RecordSlip& slip : point.slips) power -= slip.force * slip.slip_rate;
+    for (const RecordSlip& slip : point.slips) power -= slip.force * (slip.rates.w - slip.place.stretch * slip.rates.s);
     EXPECT_NEAR(rates->energy, point.monitors[0] * rates->lambda - power, 1e-6) << point.step;
     dissipated = std::max(dissipated, power);
   }

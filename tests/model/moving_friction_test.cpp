@@ -1,0 +1,304 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "tests/model/friction_decks.hpp"
+
+// Friction at contact points that move along members. References by shooting with steps of order 8, checked by
+// collocation.
+namespace arcwall::friction_test {
+
+namespace {
+
+// Half of a beam, EI = 1 and EA = 1e4, over a round prop of radius 0.2 at 1 from its centre, which goes down by λ.
+std::string bent_beam(double friction, const std::string& stages, int elements = 30) {
+  return fmt::format(R"(
+[material.m]
+E = 10000.0
+[section.s]
+shape = "general"
+A = 1.0
+I = 1e-4
+[point]
+centre = [0.0, 0.0]
+end = [1.5, 0.0]
+[member]
+beam = {{ from = "centre", to = "end", theory = "elastica", material = "m", section = "s", elements = {} }}
+[support]
+centre = ["x", "rotation"]
+[[prescribed]]
+at = "centre"
+z = -1.0
+[contact]
+points = "moving"
+[[wall]]
+name = "prop"
+contact_surface = "axis"
+outline = {{ type = "circle", centre = [1.0, -0.2], radius = 0.2 }}
+friction = {}
+[[monitor]]
+name = "P"
+at = "centre"
+component = "reaction-z"
+)",
+                     elements, friction) +
+         stages;
+}
+
+const std::string in_and_back = stage("in", "prescribed.0", 0.001, -1.0, 0.6) +
+                                stage("back", "prescribed.0", -0.001, -0.5, 1.0) +
+                                "[path]\noutput_at = { lambda = [0.1, 0.2, 0.3, 0.4, 0.5, -0.1, -0.2, -0.3, -0.4] }\n";
+
+// A pinned column, EI = 0.175 and EA = 210, under the load λ between rough walls at ±0.15. A deviation of 1e-9 makes it
+// buckle upwards.
+std::string column(double friction, const std::string& stages, const std::string& more = "") {
+  return fmt::format(R"(
+[material.m]
+E = 210.0
+[section.s]
+shape = "general"
+A = 1.0
+I = 8.333333333333333e-4
+[point]
+left = [0.0, 0.0]
+right = [2.0, 0.0]
+[member.column]
+from = "left"
+to = "right"
+theory = "elastica"
+material = "m"
+section = "s"
+elements = 20
+imperfection = [{{ shape = "sine", amplitude = 1e-9, waves = 1 }}]
+[support]
+left = ["x", "z"]
+right = ["z"]
+[contact]
+points = "moving"
+[[load]]
+at = "right"
+force = [-1.0, 0.0]
+[[wall]]
+name = "upper"
+side = "above"
+contact_surface = "axis"
+profile = {{ type = "flat", z = 0.15 }}
+friction = {0}
+[[wall]]
+name = "lower"
+side = "below"
+contact_surface = "axis"
+profile = {{ type = "flat", z = -0.15 }}
+friction = {0}
+[[monitor]]
+name = "shortening"
+at = "right"
+component = "x"
+sign = -1
+[[monitor]]
+name = "p"
+wall = "upper"
+component = "force-z"
+sign = -1
+)",
+                     friction) +
+         more + stages;
+}
+
+double lost_until(const RecordPoint& point) {
+  return std::accumulate(point.dissipation.begin(), point.dissipation.end(), 0.0);
+}
+
+// Of a stage, where λ has a value.
+const RecordPoint& point_at(const Session& session, Index stage, double lambda) {
+  const RecordPoint* nearest = nullptr;
+  for (const RecordPoint& point : session.points())
+    if (session.record().stage_number(point.branch) == stage &&
+        (nearest == nullptr || std::abs(point.lambda - lambda) < std::abs(nearest->lambda - lambda)))
+      nearest = &point;
+  return *nearest;
+}
+
+}  // namespace
+
+// The beam rolls over the prop, then slips inwards; on the way back it rolls, then slips outwards.
+TEST(MovingFriction, BeamOverRoundProps) {
+  const Session session = run_of(bent_beam(0.3, in_and_back));
+  EXPECT_EQ(reason(session), EndReason::stop);
+  expect_law(session);
+  const auto in = lambdas(session, EventKind::contact_slips, 0), back = lambdas(session, EventKind::contact_slips, 1);
+  ASSERT_EQ(in.size(), 1U);
+  ASSERT_EQ(back.size(), 1U);
+  EXPECT_NEAR(in.front(), 1.49969388e-4, 1e-9);  // own shooting, eight anchors on the roll
+  EXPECT_NEAR(0.6 + back.front(), 0.596692575, 1e-8);
+  // Twice the force at the centre.
+  const std::vector<double> force_in{0.648673676650, 1.331371955603, 1.945562121396, 2.405206656104, 2.665522828421},
+      force_back{0.603002120971, 1.145358119487, 1.535480323667, 1.717023127801, 1.684448030222};
+  for (std::size_t i = 0; i < 5; ++i) {
+    const double lambda = 0.1 * double(i + 1);
+    EXPECT_NEAR(2.0 * std::abs(point_at(session, 0, lambda).monitors[0]), force_in[i], 1e-6);
+    EXPECT_NEAR(2.0 * std::abs(point_at(session, 1, lambda - 0.6).monitors[0]), force_back[i], 1e-6);
+  }
+  EXPECT_NEAR(lost_until(point_at(session, 0, 0.6)) - lost_until(point_at(session, 0, 0.1)), 0.5 * 0.13847353620889,
+              1e-6);
+  EXPECT_NEAR(lost_until(point_at(session, 1, -0.5)) - lost_until(point_at(session, 1, -0.1)), 0.5 * 0.09257615591439,
+              1e-6);
+}
+
+// On faces, at half the height 0.01732 from the axis, friction has a lever: the beam slips outwards, rolls, then slips
+// inwards.
+TEST(MovingFriction, BeamOverPropsOnItsFace) {
+  const double height = std::sqrt(12e-4);
+  std::string text = bent_beam(0.3, stage("in", "prescribed.0", 0.001, -1.0, 0.1));
+  const auto replace = [&](const std::string& old, const std::string& by) {
+    text.replace(text.find(old), old.size(), by);
+  };
+  replace("shape = \"general\"\nA = 1.0\nI = 1e-4",
+          fmt::format("shape = \"rectangle\"\nwidth = {:.17g}\nheight = {:.17g}", 1.0 / height, height));
+  replace("contact_surface = \"axis\"\noutline = { type = \"circle\", centre = [1.0, -0.2], radius = 0.2 }",
+          fmt::format("side = \"below\"\nprofile = {{ type = \"circle\", centre = [1.0, {:.17g}], radius = 0.2 }}",
+                      -0.2 - 0.5 * height));
+  const Session session = run_of(text);
+  expect_law(session);
+  const auto sticks = lambdas(session, EventKind::contact_sticks, 0),
+             slips = lambdas(session, EventKind::contact_slips, 0);
+  ASSERT_EQ(sticks.size(), 1U);
+  ASSERT_EQ(slips.size(), 1U);
+  EXPECT_NEAR(sticks.front(), 0.0215743381828, 1e-9);
+  EXPECT_NEAR(slips.front(), 0.0250239350, 2e-7);  // of second order in L/2000
+  EXPECT_EQ(session.points()[2].forces.front().friction->mode, ContactMode::slips_forward);
+  EXPECT_TRUE(slips_back(session.points().back()));
+}
+
+// What touches slips at once: a touch that rolls would need T = 3.6 p. It spreads where the bending moment at the
+// contact vanishes, behind which friction is not modelled.
+TEST(MovingFriction, ColumnSlipsUntilItsContactSpreads) {
+  const std::vector<std::pair<double, double>> spreads{
+      {0.05, 1.739660111834}, {0.1, 1.753185122457}, {0.2, 1.780749199922}};
+  for (const auto& [friction, lambda] : spreads) {
+    const Session session = run_of(column(friction, stage("on", "load.0", 0.05, -1.0, 3.0)));
+    EXPECT_EQ(reason(session), EndReason::not_modelled);
+    EXPECT_NEAR(session.points().back().lambda, lambda, 1e-6);
+    const RecordForce& contact = session.points().back().forces.front();
+    EXPECT_EQ(contact.friction->mode, ContactMode::slips_forward);  // along the tangent, which runs to the left
+    EXPECT_NEAR(contact.friction->force, -friction * contact.force, 1e-12);
+    expect_law(session);
+  }
+}
+
+TEST(MovingFriction, ColumnRollsBackBeforeItSlips) {
+  const std::string text =
+      column(0.2, stage("on", "load.0", 0.05, -1.0, 1.2) + stage("back", "load.0", -0.02, -0.9, 5.0));
+  const Session session = run_of(text);
+  expect_law(session);
+  const auto touches = lambdas(session, EventKind::contact_closes, 0),
+             slips = lambdas(session, EventKind::contact_slips, 1),
+             opens = lambdas(session, EventKind::contact_opens, 1);
+  ASSERT_EQ(touches.size(), 1U);
+  ASSERT_EQ(slips.size(), 1U);
+  ASSERT_EQ(opens.size(), 1U);
+  EXPECT_NEAR(touches.front(), 0.435739888353, 1e-7);
+  EXPECT_NEAR(1.2 + slips.front(), 1.06971182, 1e-7);
+  EXPECT_NEAR(1.2 + opens.front(), 0.435739888353, 1e-7);
+  EXPECT_NEAR(point_at(session, 0, 1.2).monitors[1], 0.288600247292, 1e-7);
+  EXPECT_NEAR(point_at(session, 0, 1.2).monitors[0], 0.041721272133, 1e-7);
+  for (const std::size_t killed : {std::size_t{12}, session.points().size() / 2, session.points().size() - 6})
+    expect_resumed(text, session, killed);
+}
+
+TEST(MovingFriction, StepsAndMethodsDoNotChangeTheEvents) {
+  const std::string text = bent_beam(0.3, in_and_back);
+  const auto changes = [](const std::string& deck) {
+    const Session session = run_of(deck);
+    auto found = lambdas(session, EventKind::contact_slips, 0);
+    for (const double lambda : lambdas(session, EventKind::contact_slips, 1)) found.push_back(lambda);
+    return found;
+  };
+  const std::vector<double> expected = changes(text);
+  ASSERT_EQ(expected.size(), 2U);
+  for (const char* const options :
+       {"max_step = 0.05", "max_step = 0.01", "method = \"riks\"", "method = \"normal-plane\""}) {
+    const std::vector<double> found = changes(text + options + "\n");
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_NEAR(found[0], expected[0], 1e-10);
+    EXPECT_NEAR(found[1], expected[1], 1e-8);
+  }
+}
+
+// A ring between plates needs no friction: where N = 0 a contact rolls, and nothing changes its shape. Its weak
+// springs, 1e-5 of its stiffness, are all that friction bears.
+TEST(MovingFriction, RingRollsBetweenRoughPlates) {
+  const std::vector<double> forces{0.625382563985, 1.174293567876, 1.666264845603};
+  for (const double sideways : {0.0, 0.5}) {
+    const Session session = run_of(fmt::format(R"(
+[material.m]
+E = 1e5
+[section.s]
+shape = "general"
+A = 1.0
+I = 1e-5
+[point]
+west = [-1.0, 0.0]
+east = [1.0, 0.0]
+[member]
+under = {{ from = "west", to = "east", via = [0.0, -1.0], theory = "elastica", material = "m", section = "s", elements = 20 }}
+over = {{ from = "east", to = "west", via = [0.0, 1.0], theory = "elastica", material = "m", section = "s", elements = 20 }}
+[contact]
+points = "moving"
+[[wall]]
+name = "floor"
+side = "below"
+contact_surface = "axis"
+profile = {{ type = "flat", z = -1.0 }}
+friction = 0.3
+[[wall]]
+name = "plate"
+side = "above"
+contact_surface = "axis"
+profile = {{ type = "flat", z = 1.0 }}
+motion = {{ x = {}, z = -1.0 }}
+friction = 0.3
+[[monitor]]
+name = "F"
+wall = "plate"
+component = "force-z"
+sign = -1
+[path]
+step = 0.01
+branches = "primary"
+stop = {{ lambda = [-1.0, 1.0] }}
+output_at = {{ lambda = [0.1, 0.2, 0.3] }}
+)",
+                                               sideways));
+    EXPECT_EQ(reason(session), EndReason::not_modelled);
+    EXPECT_NEAR(session.points().back().lambda, 0.564473204895, 1e-6);
+    EXPECT_TRUE(lambdas(session, EventKind::contact_slips, 0).empty());
+    for (std::size_t i = 0; i < 3; ++i) {
+      const RecordPoint& point = point_at(session, 0, 0.1 * double(i + 1));
+      EXPECT_NEAR(point.monitors[0], forces[i], 3e-6);
+      ASSERT_EQ(point.forces.size(), 2U);
+      for (const RecordForce& contact : point.forces) {
+        EXPECT_EQ(contact.friction->mode, ContactMode::sticks);
+        EXPECT_LE(std::abs(contact.friction->force), 1e-5 * contact.force);
+      }
+    }
+  }
+}
+
+// Where the body lies on a rough wall, or its end touches one, the deck or the path ends with a reason.
+TEST(MovingFriction, WhatIsNotModelledIsRefused) {
+  const std::string bad =
+      column(0.2, "[[monitor]]\nname = \"slip\"\nwall = \"upper\"\nat = \"column:0.5\"\ncomponent = \"slip\"\n");
+  EXPECT_THROW(session_of(bad), InputError);
+  std::string tip = strip(0.3, stage("press", "prescribed.0", 0.0005, -1.0, 0.4));
+  tip += "[contact]\npoints = \"moving\"\n";
+  const Session ended = run_of(tip);
+  EXPECT_EQ(reason(ended), EndReason::not_modelled);
+  EXPECT_NE(ended.record().branches.back().end->detail.find("friction at an end of a member"), std::string::npos);
+}
+
+}  // namespace arcwall::friction_test
