@@ -221,7 +221,8 @@ OrderedJson members_json(const ShapePictures& shapes) {
                     {"A", member.section.A},
                     {"I", member.section.I},
                     {"EI", member.section.EI},
-                    {"half", member.section.half_height}});
+                    {"half", member.section.half_height},
+                    {"allowable", member.allowable}});
   return list;
 }
 

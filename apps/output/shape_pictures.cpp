@@ -406,6 +406,7 @@ std::vector<DrawnMember> drawn_members(const deck::Deck& deck) {
       if (!bends) return DrawnSection{.A = of.A};
       return DrawnSection{.A = of.A, .I = of.I, .EI = E * of.I, .half_height = 0.5 * of.height.value_or(0.0)};
     };
+    drawn.allowable = material->allowable.value_or(0.0);
     drawn.section = at(0.0);
     if (tapers(*section)) drawn.section_at = at;
   }

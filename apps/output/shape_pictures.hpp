@@ -62,6 +62,7 @@ struct DrawnSection {
 struct DrawnMember {
   std::string name{};
   std::string from{}, to{};  ///< points of the deck
+  double allowable = 0.0;    ///< stress of its material; 0 if none is given [force/length²]
   DrawnSection section{};
   std::function<DrawnSection(double)> section_at{};  ///< at a fraction of the member's length; empty: uniform
 };

@@ -253,6 +253,30 @@ test('a movement opens at its greatest force', async () => {
   await finish();
 });
 
+test('the use of the allowable stress is a diagram where materials have one', async () => {
+  const deck = join(folder, 'use.toml');
+  writeFileSync(deck, `title = "A cantilever that tapers"
+material.m = { E = 2.0e5, allowable = 100.0 }
+section.s = { shape = "rectangle", width = 10.0, height = 4.0, height_to = 1.0 }
+point = { A = [0.0, 0.0], B = [100.0, 0.0] }
+support.A = ["x", "z", "rotation"]
+load = [{ at = "B", force = [0.5, -1.0] }]
+member.beam = { from = "A", to = "B", theory = "elastica", material = "m", section = "s", elements = 16 }
+monitor = [{ name = "use", member = "beam", component = "utilisation" }]
+path = { step = 1.0, stop = { lambda = [-1.0, 5.0] } }
+`);
+  const { page, finish } = await open(report_of(deck, 'use'));
+  const { points } = await data_of(page);
+  await page.locator('#slider').fill(await page.getAttribute('#slider', 'max'));
+  await page.selectOption('#force', { label: 'use of the allowable stress' });
+  const note = await page.textContent('#diagram-note'), greatest = Number(note.match(/maximum ([^ ]+) at/)[1]);
+  assert.ok(Math.abs(greatest / points.monitors[0].at(-1) - 1) < 2e-3, `${note}, ${points.monitors[0]}`);
+  await finish();
+  const { page: other, finish: end } = await open(channel);
+  assert.equal((await other.locator('#force option').allTextContents()).filter((name) => name.startsWith('use')).length, 0);
+  await end();
+});
+
 test('stages have names, and one axis through all of them', async () => {
   const { page, finish } = await open(report_of(join(examples, 'snap-fit-friction.toml'), 'snap-fit-friction'));
   assert.match(await page.textContent('.legend'), /branch 0, insert\s*branch 1, remove/);

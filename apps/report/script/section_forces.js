@@ -11,6 +11,10 @@ const section_forces = [
   { name: 'curvature of bending M/EI', unit: data.length_unit === '' ? '' : `1/${data.length_unit}`, of: (n, q, m, { EI }) => part_of(m, EI) },
   { name: 'stress at the left face N/A − M h/2I', unit: stress_unit, of: (n, q, m, { A, I, half }) => half && I ? n / A - m * half / I : null },
   { name: 'stress at the right face N/A + M h/2I', unit: stress_unit, of: (n, q, m, { A, I, half }) => half && I ? n / A + m * half / I : null },
+  ...data.members.some(({ allowable }) => allowable)
+    ? [{ name: 'use of the allowable stress', unit: '', of: (n, q, m, { A, I, half, allowable }) =>
+      allowable && (half || !I) ? (Math.abs(n) / A + (I ? Math.abs(m) * half / I : 0)) / allowable : null }]
+    : [],
 ];
 
 const forces_panel = () => {
@@ -22,7 +26,7 @@ const forces_panel = () => {
   for (const { name, unit } of section_forces) quantity_choice.append(new Option(unit === '' ? name : `${name} [${unit}]`));
   for (const { name } of data.members) member_choice.append(new Option(name));
   const value_at = (force, m) => ([, , n, q, moment, A, I, EI, half]) =>
-    force.of(n, q, moment, A === undefined ? data.members[m] : { A, I, EI, half });
+    force.of(n, q, moment, A === undefined ? data.members[m] : { ...data.members[m], A, I, EI, half });
   const width = 640, height = 240, left = 78, right = 12, top = 14, bottom = 34;
   const greatest = (force, members) => shapes.reduce((most, { forces }) => members.reduce((of_members, m) =>
     (forces[m] ?? []).reduce((size, sample) => Math.max(size, Math.abs(value_at(force, m)(sample) ?? 0)), of_members), most), 0);

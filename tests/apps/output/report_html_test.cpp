@@ -228,6 +228,7 @@ stop = { lambda = [-1.0, 1e-6] }
   EXPECT_EQ(data["members"][0]["name"], "beam");
   EXPECT_NEAR(data["members"][0]["EI"].get<double>(), 2.1e4 * 1e-4 / 12.0, 1e-12);
   EXPECT_EQ(data["members"][0]["half"], 0.05);
+  EXPECT_EQ(data["members"][0]["allowable"], 0.0);  // none is given
 }
 
 // A column that buckles: the tree has its branches, and every point has a shape.
