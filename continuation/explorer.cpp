@@ -79,15 +79,19 @@ double distance_to_wall(const System& system, const State& from, const Direction
 // Whether the walls and the energy far along a mode are those far against it. Beside the point all walls that are not
 // touched yet, and laws of springs, are symmetric.
 bool mirrored_far_away(const System& system, const Metric& metric, const State& a, const State& b) {
+  constexpr double alike = 1e-6;  // relative difference: branch points are located to 1e-8
   if (a.active_set != b.active_set) return true;
   const Direction across = difference(a, b);
   const State middle = moved(b, across, 0.5);
   const Direction to = unit(metric, across), back = reversed(to);
-  const auto same_energy = [&](double s) {
-    return nearly_equal(system.energy(moved(middle, to, s)), system.energy(moved(middle, back, s)));
+  const auto are_alike = [](double one, double other) {
+    return std::abs(one - other) <= alike * (std::abs(one) + std::abs(other));
   };
-  const double there = distance_to_wall(system, middle, to), here = distance_to_wall(system, middle, back);
-  return nearly_equal(there, here) && same_energy(0.01) && same_energy(0.1) && same_energy(1.0);
+  const auto same_energy = [&](double s) {
+    return are_alike(system.energy(moved(middle, to, s)), system.energy(moved(middle, back, s)));
+  };
+  return are_alike(distance_to_wall(system, middle, to), distance_to_wall(system, middle, back)) && same_energy(0.01) &&
+         same_energy(0.1) && same_energy(1.0);
 }
 
 // Both sides of a symmetric branch point at the same distance have the same load and energy.
