@@ -84,14 +84,11 @@ bool mirrored_far_away(const System& system, const Metric& metric, const State& 
   const Direction across = difference(a, b);
   const State middle = moved(b, across, 0.5);
   const Direction to = unit(metric, across), back = reversed(to);
-  const auto are_alike = [](double one, double other) {
-    return std::abs(one - other) <= alike * (std::abs(one) + std::abs(other));
-  };
   const auto same_energy = [&](double s) {
-    return are_alike(system.energy(moved(middle, to, s)), system.energy(moved(middle, back, s)));
+    return equal_within(alike, system.energy(moved(middle, to, s)), system.energy(moved(middle, back, s)));
   };
-  return are_alike(distance_to_wall(system, middle, to), distance_to_wall(system, middle, back)) && same_energy(0.01) &&
-         same_energy(0.1) && same_energy(1.0);
+  return equal_within(alike, distance_to_wall(system, middle, to), distance_to_wall(system, middle, back)) &&
+         same_energy(0.01) && same_energy(0.1) && same_energy(1.0);
 }
 
 // Both sides of a symmetric branch point at the same distance have the same load and energy.

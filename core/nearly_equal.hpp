@@ -8,6 +8,10 @@ namespace arcwall {
 /// nothing has moved.
 inline constexpr double same_value = 1e-9;
 
-inline bool nearly_equal(double a, double b) { return std::abs(a - b) <= same_value * (std::abs(a) + std::abs(b)); }
+inline bool equal_within(double relative, double a, double b) {
+  return std::abs(a - b) <= relative * (std::abs(a) + std::abs(b));
+}
+
+inline bool nearly_equal(double a, double b) { return equal_within(same_value, a, b); }
 
 }  // namespace arcwall

@@ -116,9 +116,7 @@ Transition joined(const SlidingSetting& setting, const SlidingState& at, const P
     const bool before = at.layout.span_before(*k) == Span::pressed;
     const bool behind = at.layout.points()[*k + 1].behind == Span::pressed;
     edit.points[*k].behind = Span::pressed;
-    if (behind) {
-      edit.erase(*k + 1, edit.elements_behind(*k + 1) + (before ? 0 : 1));
-    }
+    if (behind) edit.erase(*k + 1, edit.elements_behind(*k + 1) + (before ? 0 : 1));
     if (before) edit.erase(*k, edit.elements_before(*k) + (behind ? edit.elements_behind(*k) : 1));
     if (before != behind) edit.place(*k) += moved;
     if (std::find(edit.strands.begin(), edit.strands.end(), strand) != edit.strands.end()) continue;
