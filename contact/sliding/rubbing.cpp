@@ -19,17 +19,21 @@ double offset_along_normal(const SlidingSetting& setting, const Touch& touch, co
   return std::cos(axis.angle) >= 0.0 ? offset : -offset;
 }
 
-double friction_of_point(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  return friction_coefficient(setting, at.layout, point);
-}
-
 double held_place(const SlidingState& at, std::size_t point) { return at.state.x[*at.index.place(point)]; }
 
-// The way of the body along the obstacle that a point has made since its anchor as if it had rolled.
-double rolled(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+// How a point has moved along the body since its anchor.
+struct Roll {
+  double sense, stretch, way;  // of the body along the obstacle; the mean since the anchor; of the coordinate
+
+  // Along the obstacle, as if it had rolled.
+  double length() const { return sense * stretch * way; }
+};
+
+Roll roll_of(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const Rubbing& anchor = at.layout.points()[point].rubbing;
-  const double way = at.s(static_cast<Index>(point)) - anchor.s;
-  return body_sense(setting, at, point) * 0.5 * (anchor.stretch + mean_stretch(setting, at, point)) * way;
+  return {.sense = body_sense(setting, at, point),
+          .stretch = 0.5 * (anchor.stretch + mean_stretch(setting, at, point)),
+          .way = at.s(static_cast<Index>(point)) - anchor.s};
 }
 
 // What a point does from here on.
@@ -105,9 +109,10 @@ Row mean_stretch_gradient(const SlidingSetting& setting, const SlidingState& at,
 }  // namespace
 
 ContactPlace place_of_rubbing(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  const double held = at.rubs(point) ? held_place(at, point) : 0.0;
-  const double w =
-      at.rubs(point) ? held : touched_place(setting, touch_of_contact(setting, at.layout, point), at, held).value;
+  const auto touched = [&] {
+    return touched_place(setting, touch_of_contact(setting, at.layout, point), at, 0.0).value;
+  };
+  const double w = at.rubs(point) ? held_place(at, point) : touched();
   return {.w = w,
           .s = body_sense(setting, at, point) * at.s(static_cast<Index>(point)),
           .stretch = mean_stretch(setting, at, point)};
@@ -132,7 +137,7 @@ Row slip_gradient(const SlidingSetting& setting, const SlidingState& at, std::si
 double slip_of(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const Rubbing& anchor = at.layout.points()[point].rubbing;
   if (!slips(anchor.mode)) return anchor.slipped;
-  return anchor.slipped + held_place(at, point) - anchor.w - rolled(setting, at, point);
+  return anchor.slipped + held_place(at, point) - anchor.w - roll_of(setting, at, point).length();
 }
 
 LawOfFriction law_of_friction(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
@@ -141,21 +146,19 @@ LawOfFriction law_of_friction(const SlidingSetting& setting, const SlidingState&
   LawOfFriction law{.row = at.no_slope()};
   if (slips(anchor.mode)) {
     const Index T = *at.index.friction(point), p = *at.index.force(point);
-    const double ratio = slip_sense(anchor.mode) * friction_of_point(setting, at, point);
+    const double ratio = slip_sense(anchor.mode) * friction_coefficient(setting, at.layout, point);
     law.value = at.state.x[T] + ratio * at.state.x[p];
     law.row.dx[T] = 1.0;
     law.row.dx[p] = ratio;
     return law;
   }
-  const Index s = at.index.coordinate(static_cast<Index>(point));
-  const double sense = body_sense(setting, at, point), way = at.state.x[s] - anchor.s;
-  const double stretch = 0.5 * (anchor.stretch + mean_stretch(setting, at, point));
+  const Roll roll = roll_of(setting, at, point);
   const Row by_stretch = mean_stretch_gradient(setting, at, point);
-  law.value = at.state.x[w] - anchor.w - sense * stretch * way;
-  law.row.dx = -0.5 * sense * way * by_stretch.dx;
-  law.row.dlambda = -0.5 * sense * way * by_stretch.dlambda;
+  law.value = at.state.x[w] - anchor.w - roll.length();
+  law.row.dx = -0.5 * roll.sense * roll.way * by_stretch.dx;
+  law.row.dlambda = -0.5 * roll.sense * roll.way * by_stretch.dlambda;
   law.row.dx[w] += 1.0;
-  law.row.dx[s] -= sense * stretch;
+  law.row.dx[at.index.coordinate(static_cast<Index>(point))] -= roll.sense * roll.stretch;
   return law;
 }
 
@@ -171,7 +174,7 @@ State with_modes(const SlidingSetting& setting, const SlidingState& at, std::spa
   for (const auto& [contact, mode] : modes) {
     const auto k = static_cast<std::size_t>(contact);
     if (k >= points.size()) continue;
-    if (mode == ContactMode::open || friction_of_point(setting, at, k) == 0.0)
+    if (mode == ContactMode::open || friction_coefficient(setting, at.layout, k) == 0.0)
       points[k].rubbing = {};
     else if (mode != points[k].rubbing.mode)
       points[k].rubbing = begun_here(setting, at, k, mode);
