@@ -45,4 +45,14 @@ double central_difference_along(const State& state, const Direction& direction, 
   return sum;
 }
 
+Row DifferencedObservable::gradient(const State& state) const {
+  const Differences beside = differences_at(state);
+  return central_differences(state, beside.steps, beside.value);
+}
+
+double DifferencedObservable::rate(const State& state, const Direction& direction) const {
+  const Differences beside = differences_at(state);
+  return central_difference_along(state, direction, beside.steps, beside.value);
+}
+
 }  // namespace arcwall

@@ -15,4 +15,20 @@ Row central_differences(const State& state, const Vector& steps, const std::func
 double central_difference_along(const State& state, const Direction& direction, const Vector& steps,
                                 const std::function<double(const State&)>& value);
 
+/// A quantity whose derivatives are these differences.
+class DifferencedObservable : public Observable {
+ public:
+  Row gradient(const State& state) const final;
+  double rate(const State& state, const Direction& direction) const final;
+
+ protected:
+  struct Differences {
+    Vector steps{};  ///< as of central_differences()
+    std::function<double(const State&)> value{};
+  };
+
+  /// How the value changes beside a state.
+  virtual Differences differences_at(const State& state) const = 0;
+};
+
 }  // namespace arcwall

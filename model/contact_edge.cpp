@@ -4,8 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "model/central_differences.hpp"
-
 namespace arcwall {
 
 double ContactEdge::value(const State& state) const {
@@ -22,15 +20,9 @@ double ContactEdge::value(const State& state) const {
   return what_ == What::arc_length ? edge->label.fraction * length_ : edge->place.x();
 }
 
-Row ContactEdge::gradient(const State& state) const {
-  if (!std::isfinite(value(state))) return {.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-  return central_differences(state, body_.steps(state), [&](const State& moved) { return value(moved); });
-}
-
-double ContactEdge::rate(const State& state, const Direction& direction) const {
-  if (!std::isfinite(value(state))) return 0.0;
-  return central_difference_along(state, direction, body_.steps(state),
-                                  [&](const State& moved) { return value(moved); });
+DifferencedObservable::Differences ContactEdge::differences_at(const State& state) const {
+  if (!std::isfinite(value(state))) return {.value = [](const State&) { return 0.0; }};
+  return {.steps = body_.steps(state), .value = [this](const State& moved) { return value(moved); }};
 }
 
 }  // namespace arcwall

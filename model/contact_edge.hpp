@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "contact/contact_point.hpp"
-#include "core/observable.hpp"
 #include "model/body.hpp"
+#include "model/central_differences.hpp"
 
 namespace arcwall {
 
@@ -12,7 +12,7 @@ namespace arcwall {
 /// [length]. Infinite where there is none. With contact at nodes it is that of a node.
 ///
 /// It moves continuously while the contacts are the same ones. Gradients are central differences.
-class ContactEdge final : public Observable {
+class ContactEdge final : public DifferencedObservable {
  public:
   enum class Which { first, last };
   enum class What { arc_length, x };
@@ -22,10 +22,10 @@ class ContactEdge final : public Observable {
       : contacts_(contacts), body_(body), of_(std::move(of)), length_(length), which_(which), what_(what) {}
 
   double value(const State& state) const override;
-  Row gradient(const State& state) const override;
-  double rate(const State& state, const Direction& direction) const override;
 
  private:
+  Differences differences_at(const State& state) const override;
+
   const ContactQuery& contacts_;
   const Body& body_;
   ContactsOfWall of_;

@@ -6,7 +6,6 @@
 
 #include "core/root_find.hpp"
 #include "elements/shape_functions.hpp"
-#include "model/central_differences.hpp"
 
 namespace arcwall {
 
@@ -174,22 +173,11 @@ double MemberExtreme::again(const State& state, const Found& found) const {
   return fraction_at(stretch, xi);
 }
 
-Vector MemberExtreme::steps_of(const State& state, const Found& found) const {
+DifferencedObservable::Differences MemberExtreme::differences_at(const State& state) const {
+  const Found found = extreme(state);
   Vector steps = Vector::Zero(state.x.size());
   for (const ElementsOfMember::Step& step : member_->steps(state, found.element)) steps[step.unknown] = step.size;
-  return steps;
-}
-
-double MemberExtreme::rate(const State& state, const Direction& direction) const {
-  const Found found = extreme(state);
-  return central_difference_along(state, direction, steps_of(state, found),
-                                  [&](const State& moved) { return again(moved, found); });
-}
-
-Row MemberExtreme::gradient(const State& state) const {
-  const Found found = extreme(state);
-  const Vector steps = steps_of(state, found);
-  return central_differences(state, steps, [&](const State& moved) { return again(moved, found); });
+  return {.steps = std::move(steps), .value = [this, found](const State& moved) { return again(moved, found); }};
 }
 
 // ∫ |f| over the element, by the fraction of the member: Gauss's rule between zeros, exact for the cubic axis of a

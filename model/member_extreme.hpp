@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/observable.hpp"
+#include "model/central_differences.hpp"
 #include "model/member_stretch.hpp"
 
 namespace arcwall {
@@ -45,7 +45,7 @@ struct SectionQuantities {
 /// The value is continuous along a path, the place may jump. Gradients are central differences within the element that
 /// has it: what moves the place within it does not change the value. Of a node they are those of the element before it,
 /// with which the one behind it agrees in directions that keep the equilibrium.
-class MemberExtreme final : public Observable {
+class MemberExtreme final : public DifferencedObservable {
  public:
   enum class Which { greatest, least };
   enum class What { value, place };
@@ -55,8 +55,6 @@ class MemberExtreme final : public Observable {
       : member_(std::move(member)), of_(std::move(of)), which_(which), what_(what) {}
 
   double value(const State& state) const override;
-  Row gradient(const State& state) const override;
-  double rate(const State& state, const Direction& direction) const override;
 
  private:
   struct Found {
@@ -71,7 +69,7 @@ class MemberExtreme final : public Observable {
   };
   Found extreme(const State& state) const;
   void look_in(const MemberStretch& stretch, Found& extreme, Index element, std::size_t number) const;
-  Vector steps_of(const State& state, const Found& found) const;
+  Differences differences_at(const State& state) const override;
   double again(const State& state, const Found& found) const;
 
   std::shared_ptr<const ElementsOfMember> member_;

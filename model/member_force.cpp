@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/central_differences.hpp"
 #include "model/elements_of_member.hpp"
 
 namespace arcwall {
@@ -13,12 +12,8 @@ double MemberForce::value(const State& state) const {
   return what_ == What::axial_force ? at.axial_force : at.moment;
 }
 
-Row MemberForce::gradient(const State& state) const {
-  return central_differences(state, steps(state), [&](const State& moved) { return value(moved); });
-}
-
-double MemberForce::rate(const State& state, const Direction& direction) const {
-  return central_difference_along(state, direction, steps(state), [&](const State& moved) { return value(moved); });
+DifferencedObservable::Differences MemberForce::differences_at(const State& state) const {
+  return {.steps = steps(state), .value = [this](const State& moved) { return value(moved); }};
 }
 
 ShapePoint TiedMemberForce::place(const State& state) const {

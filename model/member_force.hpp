@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "core/observable.hpp"
 #include "model/body.hpp"
+#include "model/central_differences.hpp"
 #include "model/section_forces.hpp"
 
 namespace arcwall {
@@ -12,13 +12,11 @@ namespace arcwall {
 /// the member. Where it jumps (a load, a wall) its value just before the place.
 ///
 /// Gradients are central differences: exact ones would need the derivatives of all elements' end forces.
-class MemberForce : public Observable {
+class MemberForce : public DifferencedObservable {
  public:
   using What = Body::SectionForce;
 
   double value(const State& state) const final;
-  Row gradient(const State& state) const final;
-  double rate(const State& state, const Direction& direction) const final;
 
  protected:
   explicit MemberForce(What what) : what_(what) {}
@@ -28,6 +26,8 @@ class MemberForce : public Observable {
 
   /// By how much each unknown is moved for a difference; 0 where it has no part in this.
   virtual Vector steps(const State& state) const = 0;
+
+  Differences differences_at(const State& state) const final;
 
   What what_;
 };
