@@ -477,6 +477,11 @@ State SlidingContact::start(double toward) const {
   return sliding::with_strands_lying(*setting_, SlidingState(at_rest), toward);
 }
 
+bool SlidingContact::rests_on_part() const {
+  const State at_rest = rest();
+  return sliding::rests_on_part(*setting_, SlidingState(at_rest));
+}
+
 std::optional<State> SlidingContact::with_strands_come_to_lie(const State& state, double toward) const {
   auto lying = sliding::with_strands_come_to_lie(*setting_, SlidingState(state), toward);
   if (lying && !sliding::friction_is_modelled(*setting_, lying->active_set)) lying.reset();

@@ -103,6 +103,10 @@ class SlidingContact final : public System, public ContactQuery, public Friction
   /// all along as λ goes from 0 towards this value.
   State start(double toward) const;
 
+  /// Whether at rest a part of a strand, but not all of it, lies flush on a straight obstacle. How much of it stays in
+  /// contact under the least load no gap tells: a beam that projects over the end of its bed lifts off behind it.
+  bool rests_on_part() const;
+
   /// The state with those strands pressed along their obstacles that have come down flush on them and are pressed all
   /// along as λ goes on towards this value; empty if none has.
   std::optional<State> with_strands_come_to_lie(const State& state, double toward) const;

@@ -46,9 +46,9 @@ MovedPlace at(const MovedStrand& strand, double s) {
   return between(*(behind - 1), *behind, s);
 }
 
-std::vector<MovedStrand> moved_strands(const Model& model, const State& deck_state) {
-  const Structure& structure = model.structure();
-  const SlidingStructure& sliding = *model.sliding_structure();
+std::vector<MovedStrand> moved_strands(const Assembly& of, const State& deck_state) {
+  const Structure& structure = *of.structure;
+  const SlidingStructure& sliding = *of.sliding_structure;
   std::vector<MovedStrand> strands(static_cast<std::size_t>(sliding.strands()));
   for (const MemberMesh& member : structure.members()) {
     for (std::size_t k = 0; k < member.nodes.size(); ++k) {
@@ -73,8 +73,8 @@ std::vector<MovedStrand> moved_strands(const Model& model, const State& deck_sta
 }
 
 // Moved so, without contact, on the mesh that contact which slides begins with.
-State open_shape(const Model& model, const std::vector<MovedStrand>& strands, double lambda) {
-  const State rest = model.sliding()->rest();
+State open_shape(const SlidingContact& sliding, const std::vector<MovedStrand>& strands, double lambda) {
+  const State rest = sliding.rest();
   const SlidingMesh& mesh = mesh_of(rest);
   State open = rest;
   open.lambda = lambda;
@@ -98,7 +98,6 @@ struct TouchingNodes {
   std::string wall{};
   Index strand = 0;
   std::vector<double> places{}, forces{};
-  Vec2 force = Vec2::Zero();  // of the wall on the first
 };
 
 // What nodes that touch one after the other are taken for.
@@ -108,24 +107,24 @@ enum class Reading {
   pressed,  // parts with pressure
 };
 
-// Whether no node of a strand lies between two places of nodes.
+// Whether at most one node of a strand lies between two places of nodes: an arch of two elements, none of which bends
+// away, is one of the mesh.
 bool are_neighbours(const MovedStrand& strand, double a, double b) {
   const double roundoff = 1e-6 * (b - a);
   const auto next = std::lower_bound(strand.begin(), strand.end(), a + roundoff,
                                      [](const MovedPlace& place, double s) { return place.s < s; });
-  return next == strand.end() || next->s >= b - roundoff;
+  return strand.end() - next <= 1 || (next + 1)->s >= b - roundoff;
 }
 
 // `touching`: the gap below which a node touches, in the scale of the guards.
-std::vector<TouchingNodes> touching_nodes(const Model& model, const State& state,
+std::vector<TouchingNodes> touching_nodes(const Assembly& of, const State& state,
                                           const std::vector<MovedStrand>& strands, double touching) {
-  const MultiplierContact& contact = *model.contact();
+  const MultiplierContact& contact = *of.contact;
   const Vector guards = contact.guards(state);
   struct Node {
     std::string wall;
     MaterialPoint at;
     double force;
-    Vec2 force_vector;
   };
   std::vector<Node> nodes;
   for (Index j = 0; j < contact.contact_count(); ++j) {
@@ -133,9 +132,8 @@ std::vector<TouchingNodes> touching_nodes(const Model& model, const State& state
     if (!closed && guards[j] > touching) continue;
     const ContactPoint point = contact.contact(state, j);
     nodes.push_back({.wall = point.label.wall,
-                     .at = model.sliding_structure()->find(point.label.member, point.label.fraction),
-                     .force = closed ? point.force : 0.0,
-                     .force_vector = point.force_vector});
+                     .at = of.sliding_structure->find(point.label.member, point.label.fraction),
+                     .force = closed ? point.force : 0.0});
   }
   std::stable_sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) {
     return std::tie(a.wall, a.at.strand, a.at.s) < std::tie(b.wall, b.at.strand, b.at.s);
@@ -145,7 +143,7 @@ std::vector<TouchingNodes> touching_nodes(const Model& model, const State& state
     const bool goes_on =
         !groups.empty() && groups.back().wall == node.wall && groups.back().strand == node.at.strand &&
         are_neighbours(strands[static_cast<std::size_t>(node.at.strand)], groups.back().places.back(), node.at.s);
-    if (!goes_on) groups.push_back({.wall = node.wall, .strand = node.at.strand, .force = node.force_vector});
+    if (!goes_on) groups.push_back({.wall = node.wall, .strand = node.at.strand});
     groups.back().places.push_back(node.at.s);
     groups.back().forces.push_back(node.force);
   }
@@ -165,31 +163,13 @@ std::pair<double, double> resultant(const TouchingNodes& nodes, std::size_t firs
   return {sum, sum > 0.0 ? moment / sum : nodes.places[first]};
 }
 
-// Where the axis is parallel to the wall beside a node that alone touches it: a node may be half an element from where
-// contact that slides would be.
-double tangent_place(const TouchingNodes& node, const MovedStrand& strand) {
-  const double s = node.places.front(), roundoff = 1e-9 * strand.back().s;
-  const auto here = std::lower_bound(strand.begin(), strand.end(), s - roundoff,
-                                     [](const MovedPlace& place, double there) { return place.s < there; });
-  const auto inclined = [&](const MovedPlace& place) {
-    return std::cos(place.angle) * node.force.x() + std::sin(place.angle) * node.force.y();
-  };
-  if (here == strand.end() || here == strand.begin() || here + 1 == strand.end()) return s;
-  const double at = inclined(*here);
-  for (const auto beside : {here - 1, here + 1})
-    if (const double there = inclined(*beside); at * there < 0.0)
-      return here->s + (beside->s - here->s) * at / (at - there);
-  return s;
-}
-
 // A part without pressure bears forces at its ends alone, each of which one or two nodes have.
-GivenContact given(const TouchingNodes& nodes, const MovedStrand& strand, Reading reading) {
+GivenContact given(const TouchingNodes& nodes, Reading reading) {
   constexpr std::size_t few = 5;    // nodes, of which a part that they are hardly has one inside
   constexpr double without = 1e-3;  // of the forces, inside a part without pressure
   const std::size_t n = nodes.places.size();
   const auto [all, centre] = resultant(nodes, 0, n);
   GivenContact contact{.wall = nodes.wall, .strand = nodes.strand, .from = centre, .to = centre, .force_at_from = all};
-  if (n == 1) contact.from = contact.to = tangent_place(nodes, strand);
   if (n == 1 || (n <= few && reading == Reading::likely)) return contact;
   const bool is_flat =
       reading == Reading::flat || (reading == Reading::likely && resultant(nodes, 2, n - 2).first <= without * all);
@@ -263,20 +243,25 @@ Vector DeckMesh::values(const State& state) const {
 }
 
 std::vector<State> DeckMesh::in_path_formulation(const State& equilibrium) const {
-  const State deck_state{.x = equilibrium.x.head(size_), .lambda = equilibrium.lambda, .active_set = {}};
-  const std::vector<MovedStrand> strands = moved_strands(model_, deck_state);
-  const State open = open_shape(model_, strands, equilibrium.lambda);
+  return in_moving_formulation(model_.path(), equilibrium, {1e-7, 1e-4});
+}
+
+std::vector<State> in_moving_formulation(const Assembly& of, const State& equilibrium,
+                                         std::initializer_list<double> touching) {
+  const Index size = of.structure->size({});
+  const State deck_state{.x = equilibrium.x.head(size), .lambda = equilibrium.lambda, .active_set = {}};
+  const std::vector<MovedStrand> strands = moved_strands(of, deck_state);
+  const State open = open_shape(*of.sliding, strands, equilibrium.lambda);
   std::vector<State> guesses;
   std::vector<std::vector<GivenContact>> guessed;
-  for (const double touching : {1e-7, 1e-4}) {
-    const std::vector<TouchingNodes> groups = touching_nodes(model_, equilibrium, strands, touching);
+  for (const double gap : touching) {
+    const std::vector<TouchingNodes> groups = touching_nodes(of, equilibrium, strands, gap);
     for (const Reading reading : {Reading::likely, Reading::flat, Reading::pressed}) {
       std::vector<GivenContact> contacts;
-      for (const TouchingNodes& nodes : groups)
-        contacts.push_back(given(nodes, strands[static_cast<std::size_t>(nodes.strand)], reading));
+      for (const TouchingNodes& nodes : groups) contacts.push_back(given(nodes, reading));
       if (std::find(guessed.begin(), guessed.end(), contacts) != guessed.end()) continue;
       guessed.push_back(contacts);
-      guesses.push_back(model_.with_kinks(model_.sliding()->with_given_contacts(open, contacts)));
+      guesses.push_back(of.with_kinks(of.sliding->with_given_contacts(open, contacts)));
     }
   }
   return guesses;

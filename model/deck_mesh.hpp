@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -7,6 +8,13 @@
 #include "model/model.hpp"
 
 namespace arcwall {
+
+/// Where Newton's method may begin with moving contact points, from an equilibrium with contact at the nodes: the
+/// likeliest first, as nodes hardly tell whether contact is at a point, along a part without pressure or along one with
+/// pressure. Each is within an element of what it is meant for. `touching`: gaps below which open nodes touch, too, one
+/// after the other [scale of guards].
+std::vector<State> in_moving_formulation(const Assembly& of, const State& equilibrium,
+                                         std::initializer_list<double> touching);
 
 /// The states of a model on the deck's own mesh, whose unknowns always mean the same and whose contacts are those of
 /// nodes: what is sought beside the traced path is sought there. Where contact slides, the states of the path have
@@ -42,9 +50,7 @@ class DeckMesh {
   /// Of a change of the unknowns, likewise.
   double length(const Vector& change) const;
 
-  /// Where Newton's method may begin in the path's own formulation where contact slides, from an equilibrium of
-  /// system(): the likeliest first, as nodes hardly tell whether contact is at a point, along a part without pressure
-  /// or along one with pressure. Each is within an element of what it is meant for.
+  /// in_moving_formulation() of an equilibrium of system(), where contact points move.
   std::vector<State> in_path_formulation(const State& equilibrium) const;
 
  private:

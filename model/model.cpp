@@ -1,4 +1,5 @@
 #include "model/model.hpp"
+#include "model/start_from_nodes.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -359,8 +360,20 @@ LoadIncrements Model::increments(State start) {
   return {system(), std::move(start), scale, advance, options_.factorization};
 }
 
+// Where λ goes on from rest. Of a member that lies flush on a wall along a part of it, no gap tells how much of the
+// part stays in contact, and for small λ the answer does not depend on λ: the path begins behind the first step then,
+// where contact at the nodes has decided.
+std::optional<State> Model::begun_at_rest(const Assembly& of, double first, std::string& reason) const {
+  if (!of.sliding || of.sliding->friction() || of.kinked || !of.sliding->rests_on_part()) return of.start(first);
+  if (auto begun = begun_from_nodes(of, options_up_to(of, first), options_)) return begun;
+  reason =
+      "a part of a member lies flush on a wall at rest, and no equilibrium was found in which it lifts off there; give "
+      "the member more elements, or use contact.points = \"nodes\" with a fine mesh";
+  return std::nullopt;
+}
+
 std::optional<State> Model::start(std::string& reason) const {
-  if (!ramp_) return path_.start(deck().path.step);
+  if (!ramp_) return begun_at_rest(path_, deck().path.step, reason);
   std::optional<State> state = grown(reason);
   if (!state) return std::nullopt;
   if (sliding()) {
@@ -377,22 +390,31 @@ std::optional<State> Model::start(std::string& reason) const {
   return std::nullopt;
 }
 
-// What is constant grows from nothing along a path of its own, contacts included. The state is the ramp's.
-std::optional<State> Model::grown(std::string& reason) const {
+// A path from rest to a λ, with the options of Newton's method alone.
+TraceOptions Model::options_up_to(const Assembly& of, double lambda) const {
   TraceOptions options;
-  options.step.first = 0.1;
+  options.step.first = lambda;
   options.mesh_error_of_forces = options_.mesh_error_of_forces;
   options.target_values.push_back(
-      {.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true, .label = "all"});
+      {.quantity = std::make_shared<ParameterValue>(), .value = lambda, .stops = true, .label = "all"});
   if (is_loose()) {
-    options.lambda_scale = lambda_scale_if_held(*ramp_);
+    options.lambda_scale = lambda_scale_if_held(of);
     options.corner.max_enumerated = 0;
   }
+  return options;
+}
+
+// What is constant grows from nothing along a path of its own, contacts included. The state is the ramp's.
+std::optional<State> Model::grown(std::string& reason) const {
+  TraceOptions options = options_up_to(*ramp_, 1.0);
+  options.step.first = 0.1;
   constexpr int most_laid = 20;  // so often: what is laid down may peel off again
   int laid = 0;
   constexpr double far_back = -1.0;  // of their value: a path that has turned back by so much does not return
   double most = 0.0;
-  State state = ramp_->start(1.0);
+  std::optional<State> begun = begun_at_rest(*ramp_, options.step.first, reason);
+  if (!begun) return std::nullopt;
+  State state = std::move(*begun);
   std::optional<Tracer> tracer(std::in_place, ramp_->system(), state, options);
   while (const auto arc = tracer->next()) {
     state = arc->to.state;

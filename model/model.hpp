@@ -74,6 +74,9 @@ class Model {
   const Structure& structure() const { return *path_.structure; }
 
   /// Returns the contact of the mesh nodes; null if the deck has no walls, or compliant ones.
+  /// The structure of the path, and what it touches.
+  const Assembly& path() const { return path_; }
+
   const MultiplierContact* contact() const { return path_.contact.get(); }
 
   /// Returns the contact of compliant walls; null if they are not.
@@ -154,6 +157,8 @@ class Model {
   std::function<bool(const std::string&, const std::string&)> may_join() const;
   ContactScales scales_of_contact() const;
   std::optional<State> grown(std::string& reason) const;
+  TraceOptions options_up_to(const Assembly& of, double lambda) const;
+  std::optional<State> begun_at_rest(const Assembly& of, double first, std::string& reason) const;
 
   std::shared_ptr<const deck::Deck> whole_deck_;
   Index stage_ = 0;

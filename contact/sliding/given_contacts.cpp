@@ -6,6 +6,7 @@
 
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/layout_edit.hpp"
+#include "contact/sliding/least_gaps.hpp"
 #include "contact/sliding/lying.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
@@ -48,6 +49,16 @@ std::optional<std::size_t> tip_at(const SlidingSetting& setting, Index strand, d
   return std::nullopt;
 }
 
+// Where a contact at a point is, by the shape: the least gap within an element of where it was found.
+double place_of_least_gap(const SlidingSetting& setting, const SlidingState& open, const GivenContact& contact,
+                          std::size_t obstacle) {
+  const auto least = nearest_least_gap(
+      setting, open, {.obstacle = obstacle, .at = {.strand = contact.strand, .s = contact.from}, .gap = 0.0});
+  if (!least) return contact.from;
+  const auto [from, to] = std::minmax(least->at.s, contact.from);
+  return setting.body.elements_between(contact.strand, from, to) <= 1.0 ? least->at.s : contact.from;
+}
+
 class GivenLayout {
  public:
   GivenLayout(const SlidingSetting& setting, const SlidingState& open)
@@ -60,7 +71,10 @@ class GivenLayout {
     const auto from_tip = tip_at(setting_, contact.strand, contact.from, obstacle);
     const auto to_tip = tip_at(setting_, contact.strand, contact.to, obstacle);
     if (from_tip) close_tip(*from_tip, contact.force_at_from);
-    if (!from_tip) add_point(contact, obstacle, contact.from, contact.force_at_from);
+    if (!from_tip) {
+      const double s = contact.is_part() ? contact.from : place_of_least_gap(setting_, open_, contact, obstacle);
+      add_point(contact, obstacle, s, contact.force_at_from);
+    }
     if (!contact.is_part()) return;
     const std::size_t first = last_;
     if (to_tip && to_tip != from_tip) close_tip(*to_tip, contact.force_at_to);

@@ -48,26 +48,66 @@ bool may_lie(const SlidingSetting& setting, const SlidingState& at, Index strand
   return setting.obstacles[obstacle].concerns(strand) && !is_driven_into(setting, at, strand, obstacle, toward);
 }
 
-// Whether a strand runs straight along an obstacle, within `touching` of the length scale and of an angle.
+// Where a strand runs straight along an obstacle, within `touching` of the length scale and of an angle.
+class Alongside {
+ public:
+  Alongside(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle, double touching)
+      : setting_(setting),
+        at_(at),
+        strand_(strand),
+        obstacle_(obstacle),
+        touching_(touching),
+        surface_(*setting.obstacles[obstacle].surface) {}
+
+  bool at_node(Index position) const {
+    const Vec2 here = face_of(position);
+    return touches(here) && is_flush_at(surface_, here, at_.now.lambda) &&
+           std::abs(touch_gap(setting_, touch(position), at_).tilt.value) <= touching_;
+  }
+
+  // Between a node and the next one.
+  bool at_element(Index position) const {
+    constexpr int parts = 8;  // in which the obstacle is looked at for notches
+    if (!at_node(position) || !at_node(position + 1)) return false;
+    const Vec2 from = face_of(position), to = face_of(position + 1);
+    for (int i = 1; i < parts; ++i)
+      if (!touches(from + (to - from) * i / parts)) return false;
+    return true;
+  }
+
+ private:
+  Touch touch(Index position) const {
+    return {.strand = strand_,
+            .position = position,
+            .obstacle = obstacle_,
+            .offset = setting_.face_offset(obstacle_, strand_)};
+  }
+  Vec2 face_of(Index position) const { return face(touch(position).offset, touch(position).axis(at_)); }
+  bool touches(const Vec2& place) const {
+    return std::abs(surface_.gap_slope(place, at_.now.lambda).value) <= touching_ * setting_.scales.length;
+  }
+
+  const SlidingSetting& setting_;
+  const SlidingState& at_;
+  Index strand_;
+  std::size_t obstacle_;
+  double touching_;
+  const Obstacle& surface_;
+};
+
+// How many elements of a strand do.
+Index elements_alongside(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
+                         double touching) {
+  const Alongside alongside(setting, at, strand, obstacle, touching);
+  Index count = 0;
+  for (Index position = 0; position + 1 < at.mesh.nodes(strand); ++position)
+    count += alongside.at_element(position) ? 1 : 0;
+  return count;
+}
+
 bool lies_along(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
                 double touching) {
-  constexpr int parts = 8;  // of an element, in which the obstacle is looked at for notches
-  const Obstacle& surface = *setting.obstacles[obstacle].surface;
-  const auto touches = [&](const Vec2& place) {
-    return std::abs(surface.gap_slope(place, at.now.lambda).value) <= touching * setting.scales.length;
-  };
-  std::optional<Vec2> before;
-  for (Index position = 0; position < at.mesh.nodes(strand); ++position) {
-    const Touch touch{
-        .strand = strand, .position = position, .obstacle = obstacle, .offset = setting.face_offset(obstacle, strand)};
-    const Vec2 here = face(touch.offset, touch.axis(at));
-    if (!touches(here) || !is_flush_at(surface, here, at.now.lambda)) return false;
-    if (!(std::abs(touch_gap(setting, touch, at).tilt.value) <= touching)) return false;
-    for (int i = 1; before && i < parts; ++i)
-      if (!touches(*before + (here - *before) * i / parts)) return false;
-    before = here;
-  }
-  return true;
+  return elements_alongside(setting, at, strand, obstacle, touching) == at.mesh.nodes(strand) - 1;
 }
 
 // Whether what acts along a strand presses it on an obstacle everywhere at this λ, but at an end where nothing ever
@@ -101,7 +141,19 @@ std::optional<std::size_t> pressed_along(const SlidingSetting& setting, const Sl
   return std::nullopt;
 }
 
+constexpr double rounded_off = 1e-9;  // round-off of coordinates [length scale; rad]
+
 }  // namespace
+
+bool rests_on_part(const SlidingSetting& setting, const SlidingState& rest) {
+  for (Index strand = 0; strand < setting.body.strands(); ++strand)
+    for (std::size_t w = 0; w < setting.obstacles.size(); ++w) {
+      if (!setting.obstacles[w].concerns(strand)) continue;
+      const Index along = elements_alongside(setting, rest, strand, w, rounded_off);
+      if (along > 0 && along < rest.mesh.nodes(strand) - 1) return true;
+    }
+  return false;
+}
 
 bool is_flush_at(const Obstacle& surface, const Vec2& place, double lambda) {
   return surface.faces(place, lambda) && surface.curvature(place, lambda).value == 0.0 &&
@@ -115,11 +167,10 @@ void lay_down(const SlidingSetting& setting, Index strand, std::size_t obstacle,
 }
 
 State with_strands_lying(const SlidingSetting& setting, const SlidingState& rest, double toward) {
-  constexpr double touching = 1e-9;
   LayoutEdit edit = edit_of(setting.body, rest);
   for (Index strand = 0; strand < setting.body.strands(); ++strand) {
     if (rest.layout.point_at_end(strand, false)) continue;  // it is pinched
-    const auto obstacle = pressed_along(setting, rest, strand, toward, touching);
+    const auto obstacle = pressed_along(setting, rest, strand, toward, rounded_off);
     if (obstacle) lay_down(setting, strand, *obstacle, edit);
   }
   return edit.lying.empty() ? rest.state : mapped_onto(setting, rest, edit, layout_of(edit));

@@ -14,6 +14,9 @@ namespace arcwall::sliding {
 /// Whether an obstacle is straight where it faces a place that touches it.
 bool is_flush_at(const Obstacle& surface, const Vec2& place, double lambda);
 
+/// Whether a part of a strand lies flush on a straight obstacle at rest, and the rest of it does not.
+bool rests_on_part(const SlidingSetting& setting, const SlidingState& rest);
+
 /// Says that a strand is pressed on a straight obstacle from end to end, its free ends included.
 void lay_down(const SlidingSetting& setting, Index strand, std::size_t obstacle, LayoutEdit& edit);
 
