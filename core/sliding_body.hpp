@@ -215,9 +215,9 @@ class SlidingBody {
   /// Curvature that the axis has at a place without force, temperatures included, by stress-free length [1/length].
   virtual double natural_curvature(const MaterialPoint& point, double lambda) const = 0;
 
-  /// Its second derivative by stress-free length [1/length³]. A stretch of 3 % of the strand is looked at on either
-  /// side.
-  virtual double natural_curvature_second(const MaterialPoint& point) const = 0;
+  /// Its first or second derivative by stress-free length [1/length², 1/length³]. A stretch of 0.4 or 6 % of the strand
+  /// is looked at on either side.
+  virtual double natural_curvature_derivative(const MaterialPoint& point, int derivative) const = 0;
 
   /// Strain that the axis has without force, and its rate by λ.
   struct FreeStrain {

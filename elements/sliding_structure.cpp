@@ -38,9 +38,10 @@ double SlidingStructure::natural_curvature(const MaterialPoint& point, double la
 }
 
 // By central differences over nine points, from which it is extrapolated at the ends of the strand. κ and the speed v,
-// by which the curve is longer than its axis, are functions of the axis' arc length a: d²κ/dS² = (κ_aa − κ_a v_a/v)/v².
+// by which the curve is longer than its axis, are functions of the axis' arc length a: dκ/dS = κ_a/v,
+// d²κ/dS² = (κ_aa − κ_a v_a/v)/v².
 // Temperatures are the same all along a strand.
-double SlidingStructure::natural_curvature_second(const MaterialPoint& point) const {
+double SlidingStructure::natural_curvature_derivative(const MaterialPoint& point, int derivative) const {
   using Nine = Eigen::Matrix<double, 9, 1>;
   static const Nine first = (Nine() << 3.0, -32.0, 168.0, -672.0, 0.0, 672.0, -168.0, 32.0, -3.0).finished() / 840.0;
   static const Nine second =
@@ -49,7 +50,7 @@ double SlidingStructure::natural_curvature_second(const MaterialPoint& point) co
   static const Nine fourth =
       (Nine() << 7.0, -96.0, 676.0, -1952.0, 2730.0, -1952.0, 676.0, -96.0, 7.0).finished() / 240.0;
   const Run& strand = runs_[static_cast<std::size_t>(point.strand)];
-  const double h = 0.015 * strand.length;
+  const double h = (derivative == 1 ? 0.001 : 0.015) * strand.length;
   const double centre = std::clamp(point.s, 4.0 * h, strand.length - 4.0 * h), t = (point.s - centre) / h;
   Nine curvature, speed;
   for (Index i = 0; i < 9; ++i) {
@@ -59,8 +60,10 @@ double SlidingStructure::natural_curvature_second(const MaterialPoint& point) co
   }
   const double half = 0.5 * t * t;
   const double v = speed[4] + (t * first + half * second).dot(speed);
+  const Nine third_order = half * t / 3.0 * fourth;
+  const double curvature_a = (first + t * second + half * third + third_order).dot(curvature) / h;
+  if (derivative == 1) return curvature_a / v;
   const double v_a = (first + t * second + half * third).dot(speed) / h;
-  const double curvature_a = (first + t * second + half * third).dot(curvature) / h;
   const double curvature_aa = (second + t * third + half * fourth).dot(curvature) / (h * h);
   return (curvature_aa - curvature_a * v_a / v) / (v * v);
 }

@@ -39,7 +39,7 @@ class SlidingStructure final : public SlidingBody {
   }
   double elements_between(Index strand, double from, double to) const override;
   double natural_curvature(const MaterialPoint& point, double lambda) const override;
-  double natural_curvature_second(const MaterialPoint& point) const override;
+  double natural_curvature_derivative(const MaterialPoint& point, int derivative) const override;
   SectionStiffness stiffness(const MaterialPoint& point, int derivative = 0) const override;
   FreeStrain free_strain(Index strand, double lambda) const override {
     const Driven& strain = at(strand).thermal.strain;

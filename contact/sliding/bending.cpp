@@ -213,12 +213,17 @@ namespace {
 
 // (EI κ₀)″ at a place.
 double natural_moment_second(const SlidingBody& body, const MaterialPoint& here, double lambda) {
-  const double by_curvature = body.bending_stiffness(here) * body.natural_curvature_second(here);
+  const double by_curvature = body.bending_stiffness(here) * body.natural_curvature_derivative(here, 2);
   const double EI_first = body.stiffness(here, 1).EI, EI_second = body.stiffness(here, 2).EI;
   if (EI_first == 0.0 && EI_second == 0.0) return by_curvature;
-  const auto natural = [&](double d) { return body.natural_curvature({here.strand, here.s + d}, lambda); };
-  const double natural_first = derivative(natural, difference_step * body.length(here.strand));
-  return by_curvature + 2.0 * EI_first * natural_first + EI_second * natural(0.0);
+  return by_curvature + 2.0 * EI_first * body.natural_curvature_derivative(here, 1) +
+         EI_second * body.natural_curvature(here, lambda);
+}
+
+// (EI κ₀)′
+double natural_moment_first(const SlidingBody& body, const MaterialPoint& here, double lambda) {
+  return body.bending_stiffness(here) * body.natural_curvature_derivative(here, 1) +
+         body.stiffness(here, 1).EI * body.natural_curvature(here, lambda);
 }
 
 }  // namespace
@@ -230,6 +235,28 @@ double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, do
   const double bending = natural_moment_second(body, here, held.lambda) / held.stretch;
   const double side = sign_of(setting.obstacles[held.touch.obstacle].surface->side());
   return -side * held.travel * (bending + load_on(setting, held, ahead).dot(perp(unit_tangent(held.angle))));
+}
+
+double bent_onto_end(const SlidingSetting& setting, const HeldAxis& held, bool last) {
+  const double shear =
+      natural_moment_first(setting.body, {.strand = held.touch.strand, .s = held.s}, held.lambda) / held.stretch;
+  const double side = sign_of(setting.obstacles[held.touch.obstacle].surface->side());
+  return (last ? 1.0 : -1.0) * side * held.travel * shear;
+}
+
+Row bent_onto_end_gradient(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held, bool last) {
+  const double by_stretch = -bent_onto_end(setting, held, last) / held.stretch;
+  const auto at_lambda = [&](double d) {
+    HeldAxis there = held;
+    there.lambda += d;
+    return bent_onto_end(setting, there, last);
+  };
+  const AxisStrainGradient strain = strain_gradient_at(at, held.touch, held.point);
+  Row row = at.no_slope();
+  row.dx.head(at.index.nodes) += by_stretch * strain.stretch_dx;
+  row.dx.tail(at.index.points) += by_stretch * strain.stretch_ds;
+  row.dlambda = derivative(at_lambda, difference_step) + by_stretch * strain.stretch_dlambda;
+  return row;
 }
 
 bool pressure_vanishes_for_all_lambda(const SlidingSetting& setting, const HeldAxis& held, double ahead) {

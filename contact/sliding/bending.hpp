@@ -70,6 +70,11 @@ HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, const 
 /// where it presses (8.7).
 double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 
+/// The force by which a straight obstacle holds the axis straight up to an end: its natural curvature presses the end
+/// on the obstacle where > 0 [force]; and its derivatives by the unknowns and λ.
+double bent_onto_end(const SlidingSetting& setting, const HeldAxis& held, bool last);
+Row bent_onto_end_gradient(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held, bool last);
+
 /// Whether that is zero at this λ and all others, but for round-off of what it is elsewhere along the strand: as at an
 /// end where the load falls to nothing. There it is no bound.
 bool pressure_vanishes_for_all_lambda(const SlidingSetting& setting, const HeldAxis& held, double ahead);

@@ -51,13 +51,10 @@ struct NaturalCurvature {
 };
 
 NaturalCurvature natural_curvature(const SlidingBody& body, const HeldPlace& held) {
-  const Index strand = held.touch.strand;
-  const double length = body.length(strand), step = difference_step * length;
-  const double s = std::clamp(held.s, 2.0 * step, length - 2.0 * step);
-  const auto at = [&](double d) { return body.natural_curvature({.strand = strand, .s = s + d}, held.lambda); };
-  return {.value = body.natural_curvature({.strand = strand, .s = held.s}, held.lambda),
-          .first = derivative(at, step),
-          .second = body.natural_curvature_second({.strand = strand, .s = held.s})};
+  const MaterialPoint here{.strand = held.touch.strand, .s = held.s};
+  return {.value = body.natural_curvature(here, held.lambda),
+          .first = body.natural_curvature_derivative(here, 1),
+          .second = body.natural_curvature_derivative(here, 2)};
 }
 
 // ± [(M′/Λ)′ − κ N − q·n] with M = EI (κ − κ₀), κ = Λ κ̂ and N = EA (Λ − 1 − ε₀). Along the body N′ = κ V − q·t with

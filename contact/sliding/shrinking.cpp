@@ -149,7 +149,7 @@ Transition zone_joins_at_plane(const SlidingSetting& setting, const SlidingState
   edit.ends_closed[end] = 1;
   edit.end_forces[end] = edit.forces[point];
   edit.press_up_to_end(point, last, edit.elements_before(point) + edit.elements_behind(point));
-  if (!(put_on_end(setting, at, setting.free_ends[end].seen_from(of)) < 0.0))
+  if (!(presses_end(setting, at, setting.free_ends[end].seen_from(of)) < 0.0))
     return back_to<PressureBound>(setting, at, edit, {last ? setting.body.length(strand) : 0.0},
                                   Transition::Change::joins);
   const auto on = layout_of(edit);

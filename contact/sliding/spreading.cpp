@@ -184,7 +184,7 @@ std::size_t spread_from(const SlidingSetting& setting, const SlidingState& at, c
   const HeldAxis held = held_axis_at_end(setting, at, end);
   const double s = end.last ? setting.body.length(end.strand) - length : length;
   const std::size_t contact = contact_of(setting, at, end) - at.layout.points().size();
-  const double load = put_on_end(setting, at, end);
+  const double load = presses_end(setting, at, end);
   if (lies_by_itself(setting, at, held))
     between = load > zero_force * setting.scales.force ? Span::pressed : Span::flat;
   const bool stays = between == Span::pressed;

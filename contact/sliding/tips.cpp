@@ -44,7 +44,7 @@ ClosedTip closed_tip(const SlidingSetting& setting, const SlidingState& at, std:
                 .last = of.last,
                 .obstacle = there.obstacle,
                 .force = at.force(at.layout.points().size() + end)};
-  tip.load = put_on_end(setting, at, there);
+  tip.load = presses_end(setting, at, there);
   tip.bend = end_curvature_gap(setting, at, there);
   tip.bends_with_it = std::abs(tip.bend) * setting.scales.length <= nearly_straight;
   return tip;
@@ -198,15 +198,16 @@ bool face_goes_on(const SlidingSetting& setting, const SlidingState& at, const F
   return rotation(end) == rotation(end.seen_from(*other));
 }
 
-double put_on_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+double presses_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
   const Touch touch = touch_of_end(setting, at.layout, end);
   const Obstacle& surface = *setting.obstacles[end.obstacle].surface;
-  return -at.mesh.load_on_end(end.strand, end.last, at.now)
-              .force.dot(surface.normal(face(touch.offset, touch.axis(at)), at.now.lambda));
+  const double put = -at.mesh.load_on_end(end.strand, end.last, at.now)
+                          .force.dot(surface.normal(face(touch.offset, touch.axis(at)), at.now.lambda));
+  return put + bent_onto_end(setting, held_axis_at_end(setting, at, end), end.last);
 }
 
 // The normal at the end changes with the end's place and direction: that by differences.
-Row put_on_end_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+Row presses_end_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
   const Touch touch = touch_of_end(setting, at.layout, end);
   const Obstacle& surface = *setting.obstacles[end.obstacle].surface;
   const SlidingMesh::EndLoad load = at.mesh.load_on_end(end.strand, end.last, at.now);
@@ -221,9 +222,9 @@ Row put_on_end_gradient(const SlidingSetting& setting, const SlidingState& at, c
     return load.force.dot(normal(more) - normal(less)) / (2.0 * by);
   };
   const Vec2 here = normal(at.state);
-  Row row = at.no_slope();
-  row.dx.head(load.dx[0].size()) = -here.x() * load.dx[0] - here.y() * load.dx[1];
-  row.dlambda = -here.dot(load.dlambda);
+  Row row = bent_onto_end_gradient(setting, at, held_axis_at_end(setting, at, end), end.last);
+  row.dx.head(load.dx[0].size()) += -here.x() * load.dx[0] - here.y() * load.dx[1];
+  row.dlambda -= here.dot(load.dlambda);
   if (load.force.isZero(0.0)) return row;
   const NodeUnknowns unknowns = at.mesh.node_unknowns(end.strand, touch.position);
   for (std::size_t i = 0; i < 3; ++i)

@@ -13,10 +13,10 @@ namespace arcwall::sliding {
 /// Whether an end is at a joint beyond which the face that touches goes on in line, and turns with it.
 bool face_goes_on(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
-/// What point loads and springs put on an end that touches, into the obstacle [force]; and its derivatives by the
-/// unknowns and λ.
-double put_on_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
-Row put_on_end_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+/// What presses an end on its obstacle where the body is straight up to there: point loads, springs and the natural
+/// curvature [force]; and its derivatives by the unknowns and λ.
+double presses_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+Row presses_end_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
 /// The closed contact of an end with the obstacle on which a part is pressed up to there, by its number among the free
 /// ends; empty where there is none.

@@ -46,7 +46,7 @@ Stretch longest_between_loads(const SlidingSetting& setting, const SlidingState&
   const auto goes_on_beyond = [&](bool last) {
     const StrandEnd end{.strand = part.strand, .last = last};
     const auto contact = setting.number_of_end(end, obstacle_of_part(at, segment));
-    return contact && !(put_on_end(setting, at, setting.free_ends[*contact].seen_from(end)) > 0.0);
+    return contact && !(presses_end(setting, at, setting.free_ends[*contact].seen_from(end)) > 0.0);
   };
   Stretch longest{.from = whole.from, .to = whole.from, .first = {}, .last = {}}, rest = whole;
   rest.is_half = part.first_point < 0 && goes_on_beyond(false);

@@ -19,13 +19,13 @@ double TipPressesBound::value(const SlidingSetting& setting, const SlidingState&
   const auto contact = pressed_contact(setting, at, end());
   if (!contact) return off_its_obstacle;
   const double hardly_lifts = setting.scales.slack / setting.scales.force + zero_force;
-  return put_on_end(setting, at, setting.free_ends[*contact].seen_from(end())) / setting.scales.force + hardly_lifts;
+  return presses_end(setting, at, setting.free_ends[*contact].seen_from(end())) / setting.scales.force + hardly_lifts;
 }
 
 Row TipPressesBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
   const auto contact = pressed_contact(setting, at, end());
   if (!contact) return at.no_slope();
-  Row row = put_on_end_gradient(setting, at, setting.free_ends[*contact].seen_from(end()));
+  Row row = presses_end_gradient(setting, at, setting.free_ends[*contact].seen_from(end()));
   row.dx /= setting.scales.force;
   row.dlambda /= setting.scales.force;
   return row;

@@ -4,7 +4,7 @@
 
 namespace arcwall::sliding {
 
-/// The force that is put on a tip up to which a part is pressed on an obstacle, into that: behind the bound it lifts
+/// The force that presses a tip on the obstacle on which a part is pressed up to there: behind the bound it lifts
 /// the tip, and the part peels off from there, however little it is. The pressure beside the tip, of which its contact
 /// bears a share, does not hold it. Negative where the tip does not touch.
 class TipPressesBound final : public BoundOfEnd<BoundKind::tip_presses> {
