@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "continuation/committed_point.hpp"
 #include "continuation/corners/corner.hpp"
 #include "continuation/corners/first_point.hpp"
 #include "continuation/corners/friction_corner.hpp"
@@ -232,6 +233,25 @@ std::optional<CornerPassed> leave_active_set(TraceTools& tools, const TracerStat
   return passed;
 }
 
+// The end of an arc as the next step's start. Points that reach their bounds of friction together slip from there on,
+// and λ or a monitor may turn.
+void commit_end(TraceTools& tools, double lambda_scale, double length, PathPoint& end, Accepted& accepted) {
+  PathTangent arrives{.state = end.state, .tangent = end.tangent};
+  Departure& leave = accepted.leave;
+  if (!commit(tools, tools.metric_on(end.state.active_set, lambda_scale), arrives.tangent, length, end)) return;
+  const std::vector<int> before = std::exchange(leave.signs, signs_at(tools.detectors, end));
+  add_turns(tools, before, leave.signs,
+            {.state = end.state,
+             .arc = end.arc,
+             .residual = end.residual,
+             .unstable_before = leave.count_after.unstable,
+             .unstable_after = end.count.unstable},
+            accepted.arc.events);
+  leave.negative_eigenvalues = end.negative_eigenvalues;
+  leave.count_after = end.count;
+  if (!accepted.arc.arrives) accepted.arc.arrives = std::move(arrives);
+}
+
 Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& origin, ArcEnd end, double s) {
   Accepted accepted{.corners_without_progress = state.corners_without_progress};
   std::optional<CornerPassed> passed = leave_active_set(tools, state, origin, end);
@@ -267,6 +287,7 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
   if (!accepted.end && new_contacts)
     accepted.end = stop_at_contacts(tools.options, origin.point().state.active_set, end.point.state.active_set);
   if (!accepted.end) accepted.end = stop_at_events(tools.options, accepted.arc.events);
+  commit_end(tools, state.lambda_scale, end.length, end.point, accepted);
   begin_next(origin, passed && passed->entered ? passed->entered->begin : end.point, smooth, accepted.leave);
   if (passed && passed->entered) accepted.leave.known_end = std::move(passed->entered->first);
   if (passed && passed->entered && !passed->entered->values.empty()) {

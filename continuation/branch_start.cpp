@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "continuation/committed_point.hpp"
 #include "continuation/corners/corner.hpp"
 #include "continuation/corners/friction_corner.hpp"
 #include "continuation/path_tolerances.hpp"
@@ -66,6 +67,7 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
     events = std::move(passed.events);
     at = std::move(passed.at);
   }
+  commit(tools, tools.metric_on(at.state.active_set, state.lambda_scale), forward, 0.0, at);
   at.count = tools.counter.count(at.state, at.negative_eigenvalues);
   std::optional<EnteredActiveSet> entered;
   if (const auto bound = bound_passed_at(tools.system, at, tools.options.guard_tolerance)) {

@@ -5,6 +5,7 @@
 #include "core/algebra/sliding_stability.hpp"
 #include "core/algebra/slip_stiffness.hpp"
 #include "core/algebra/test_function.hpp"
+#include "core/algebra/unsymmetric_stability.hpp"
 
 namespace arcwall {
 
@@ -13,6 +14,7 @@ std::optional<Index> negative_eigenvalues(const Equations& system, const State& 
                                           const Linearization& now, const NearNull& nearest) {
   if (system.counted_directions(state.active_set) == CountedDirections::none) return std::nullopt;
   const Index multipliers = system.multiplier_count(state.active_set);
+  if (now.N.nonZeros() > 0) return negative_real_parts(solver, now);
   if (now.B.cols() == 0) {
     const Vector weights = system.weights(state.active_set);
     const auto negative = negative_count(solver.inner(), now.K, weights, multipliers, nearest, solver.make());
@@ -52,6 +54,8 @@ StabilityCount StabilityCounter::count(const State& state, std::optional<Index> 
   if (unstable && *unstable == 0) count.stability = Stability::stable;
   if (negative_held && *negative_held > 0) count.stability = Stability::unstable;
   if (slipping(strong) > 1) count.stability = stability_of_slips(system_.with_active_set(state, strong));
+  if (system_.history() != nullptr)
+    if (const auto stability = stability_with_slips(state)) count.stability = *stability;
   if (system_.counted_directions(state.active_set) != CountedDirections::some) return count;
   return {.stability = count.stability == Stability::unstable ? Stability::unstable : Stability::undecided};
 }
@@ -80,6 +84,17 @@ Stability StabilityCounter::stability_of_slips(const State& state) {
   return Stability::undecided;
 }
 
+// Of points that elastic friction holds: a motion in which none slips on releases energy where K has a negative
+// eigenvalue; none does where the least work of all is positive. Empty where nothing slips.
+std::optional<Stability> StabilityCounter::stability_with_slips(const State& state) {
+  const FactorStatus status = own_.linearize_at(state);
+  if (own_.equations().N.nonZeros() == 0) return std::nullopt;
+  const auto held = own_.solver().inner().inertia();
+  if (status != FactorStatus::ok || !held) return Stability::undecided;
+  if (held->negative > 0) return Stability::unstable;
+  return work_is_positive(own_.solver(), own_.equations()) ? Stability::stable : Stability::undecided;
+}
+
 std::optional<Index> StabilityCounter::negative_on(const State& state) {
   if (system_.counted_directions(state.active_set) == CountedDirections::none) return std::nullopt;
   if (last_ != state) remember(state, counted_on(state));
@@ -96,7 +111,7 @@ std::optional<Index> StabilityCounter::counted_on(const State& state) {
   FactorizedEquations& at = shares ? shared_ : own_;
   if (!shares && start_ != nullptr) own_.track_from(*std::exchange(start_, nullptr));
   const FactorStatus status = at.linearize_at(state);
-  const bool regular = status == FactorStatus::ok, bordered = at.equations().B.cols() > 0;
+  const bool regular = status == FactorStatus::ok, bordered = !at.equations().is_symmetric();
   if (status == FactorStatus::not_finite || (bordered && !regular)) return std::nullopt;
   NearNull nearest;
   if (regular && !bordered) {

@@ -40,6 +40,7 @@ class StabilityCounter {
   std::optional<Index> counted_on(const State& state);
   Index slipping(const ActiveSet& active_set) const;
   Stability stability_of_slips(const State& state);
+  std::optional<Stability> stability_with_slips(const State& state);
 
   const UnilateralSystem& system_;
   double force_tolerance_;

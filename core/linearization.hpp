@@ -24,9 +24,16 @@ struct RollingPlace {
 ///
 ///     ∂F/∂x = [ K  B ]
 ///             [   C  ]
+///
+/// Equations without a border may have another part N that is not symmetric, ∂F/∂x = K + N, where places slip that
+/// elastic friction holds (PathHistory). K is then what it is while they stick.
 struct Linearization {
   Vector F{};                              ///< residual, internal minus external
   SparseMatrix K{};                        ///< the symmetric part: its lower triangle alone is stored
+  SparseMatrix N{};                        ///< the other part, with entries where both triangles of K have some; of no
+                                           ///< size where nothing slips
+  SparseMatrix work_lost{};                ///< with N: a symmetric matrix, its lower triangle: a motion in which some
+                                           ///< of what slips sticks takes no more of K + N's work than its form
   Matrix B{};                              ///< columns of the border; none for most systems
   LongRows C{};                            ///< rows of the border, by x and s
   std::vector<Index> holding{};            ///< y_k, one a column of B
@@ -49,6 +56,9 @@ struct Linearization {
                                            ///< with K in each linearization
   std::optional<ActiveSet> pattern_of{};   ///< the active set whose pattern K has; empty: not laid out yet
   std::unique_ptr<Linearization> inner{};  ///< workspace of a system that wraps another
+
+  /// False where the equations have a border or an unsymmetric part.
+  bool is_symmetric() const { return B.cols() == 0 && N.nonZeros() == 0; }
 };
 
 }  // namespace arcwall

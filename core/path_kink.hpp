@@ -10,6 +10,8 @@ namespace arcwall {
 struct PathKink {
   /// Grows through zero at the kink; grows along the path on both sides. Null: not known.
   std::shared_ptr<const Observable> past{};
+  /// One of many, over most of which a step may go as if there were none.
+  bool is_slight = false;
 };
 
 }  // namespace arcwall

@@ -7,6 +7,7 @@
 
 #include "core/equations.hpp"
 #include "core/frictional_contact.hpp"
+#include "core/path_history.hpp"
 
 namespace arcwall {
 
@@ -79,6 +80,9 @@ class UnilateralSystem : public Equations {
 
   /// Returns the friction of the contacts; null if none has friction.
   virtual const FrictionalContact* friction() const { return nullptr; }
+
+  /// Returns the internal variables of the equations; null if they have none.
+  virtual const PathHistory* history() const { return nullptr; }
 
   bool has_friction() const { return friction() != nullptr; }
 

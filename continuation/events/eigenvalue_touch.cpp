@@ -47,7 +47,7 @@ class MidpointStiffness {
     const double sign = metric_.inner_x(from, to) < 0.0 ? -1.0 : 1.0;
     const Vector mean = to + sign * from;
     const double squared = metric_.inner_x(mean, mean);
-    if (now_.B.cols() > 0) return mean.dot(product(now_, mean).col(0)) / squared;
+    if (!now_.is_symmetric()) return mean.dot(product(now_, mean).col(0)) / squared;
     const QuadraticForm form = quadratic_form(now_.K, mean);
     return form.roundoff > least * squared ? std::nullopt : std::optional(form.value / squared);
   }

@@ -58,7 +58,7 @@ std::optional<double> eigenvalue_of_order(const Vector& near, Index negative, In
 std::optional<Matrix> test_matrix(const SegmentSamples& on, const PathSample& sample, Vanishing what, Index order,
                                   Matrix& modes) {
   if (what == Vanishing::turning) return Matrix::Constant(1, 1, sample.tangent.dlambda / on.metric.lambda_scale());
-  if (on.corrector.factorized().equations().B.cols() > 0) {
+  if (!on.corrector.factorized().equations().is_symmetric()) {
     const auto eigen = on.corrector.near_null(sample.state, on.metric.weights(), on.pairs);
     const auto value =
         eigen && sample.negative ? eigenvalue_of_order(eigen->values, *sample.negative, order) : std::nullopt;

@@ -71,6 +71,7 @@ int change_at_limit(TraceTools& tools, const StepOrigin& origin, const PathPoint
   if (!tools.system.slipping(at.state.active_set).empty()) return 0;  // friction has no energy whose rate would tell
   if (!tools.corrector.is_at(at.state)) tools.system.linearize(at.state, tools.workspace(at.state.active_set));
   const Linearization& now = tools.corrector.factorized().equations();
+  if (now.N.nonZeros() > 0) return 0;
   const double work =
       now.B.cols() > 0 ? work_from_energies(tools.system, origin.metric, at) : now.F_lambda.dot(at.tangent.dx);
   if (std::abs(work) <= nearly * origin.metric.dual_norm(now.F_lambda)) return 0;

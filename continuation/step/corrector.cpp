@@ -81,7 +81,7 @@ std::optional<NearNull> Corrector::near_null([[maybe_unused]] const State& here,
   assert(!here_.has_point() || here_.is_at(here));
   const Linearization& now = here_.equations();
   const BorderedSolver& solver = here_.solver();
-  if (!here_.has_point() || !solver.inner_is_regular()) return std::nullopt;
+  if (!here_.has_point() || !solver.inner_is_regular() || now.N.nonZeros() > 0) return std::nullopt;
   const Vector weighted = weights.head(now.K.cols());
   if (now.B.cols() > 0) {
     const SlidingStabilityOperator border(solver, now, sliding_resistance(solver, now));
@@ -167,7 +167,7 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
   result.status = CorrectorStatus::converged;
   const Linearization& now = here_.equations();
   BorderedSolver& solver = here_.solver();
-  const bool alone = now.B.cols() > 0 || wanted == Wanted::tangent;
+  const bool alone = !now.is_symmetric() || wanted == Wanted::tangent;
   Matrix columns = alone ? Matrix(now.F.size(), 1) : here_.tracker().right_hand_sides(metric.weights(), 1);
   Direction tangent;
   if (!solver.tangent(border, tangent, columns)) {
@@ -187,7 +187,7 @@ CorrectorResult Corrector::find_pairs(const State& state, const Metric& metric) 
     return result;
   }
   Matrix columns;
-  if (here_.equations().B.cols() == 0) columns = here_.tracker().right_hand_sides(metric.weights());
+  if (here_.equations().is_symmetric()) columns = here_.tracker().right_hand_sides(metric.weights());
   const bool solved = here_.solver().inner_is_regular() && columns.cols() > 0 && here_.solver().solve_inner(columns);
   result.status = CorrectorStatus::converged;
   add_pairs(state, metric, columns.leftCols(solved ? columns.cols() : 0), result);
@@ -199,7 +199,7 @@ CorrectorResult Corrector::find_pairs(const State& state, const Metric& metric) 
 void Corrector::add_pairs(const State& here, const Metric& metric, const Eigen::Ref<const Matrix>& solved,
                           CorrectorResult& result) {
   const BorderedSolver& solver = here_.solver();
-  if (here_.equations().B.cols() > 0) {
+  if (!here_.equations().is_symmetric()) {
     result.negative = negative_eigenvalues(system_, here, solver, here_.equations(), {});
     return;
   }

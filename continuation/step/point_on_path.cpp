@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "continuation/path_tolerances.hpp"
+
 namespace arcwall {
 
 PathPoint path_point(const System& system, const Metric& metric, CorrectorResult result, const Direction& forward) {
@@ -38,7 +40,8 @@ CorrectedPoint inside_step(TraceTools& tools, const StepOrigin& origin, const Se
   // The place must lie inside the step, up to the curvature of the arc: beside it another branch may have the value.
   constexpr double inside = 1.2;
   const double along = origin.metric.inner(difference(result.state, from.state), segment.chord()) / segment.length();
-  if (along < -1e-6 * segment.length() || along > inside * segment.length()) return corrected;
+  const double before = std::max(1e-6 * segment.length(), 2.0 * kink_accuracy);  // a step may begin just past a kink
+  if (along < -before || along > inside * segment.length()) return corrected;
   const auto distance_to = [&](const PathPoint& end) { return origin.metric.distance(result.state, end.state); };
   if (distance_to(segment.from()) > inside * segment.length() || distance_to(segment.to()) > inside * segment.length())
     return corrected;

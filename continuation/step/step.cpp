@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "continuation/corners/transitions.hpp"
+#include "continuation/events/limit_point.hpp"
 #include "continuation/events/target_values.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/step/point_on_path.hpp"
@@ -162,7 +163,8 @@ std::optional<StepToKink> step_to_kink(TraceTools& tools, const StepOrigin& orig
 // Whether a step over a kink has to be taken in parts: it turns too much, something changes on its way, or a contact
 // slips over it, whose dissipation is an integral along the way.
 bool is_stopped_by_kink(TraceTools& tools, const StepOrigin& origin, const CorrectorResult& result, double s) {
-  if (!tools.system.kink_between(origin.point().state, result.state)) return false;
+  const auto kink = tools.system.kink_between(origin.point().state, result.state);
+  if (!kink) return false;
   if (!tools.system.slipping(result.state.active_set).empty()) return true;
   StepEnd end{.point = path_point(tools.system, origin.metric, result, origin.point().tangent)};
   const Metric metric = turning_metric(origin, s, tools.options.step.max);
@@ -172,7 +174,9 @@ bool is_stopped_by_kink(TraceTools& tools, const StepOrigin& origin, const Corre
   };
   const auto& targets = tools.options.target_values;
   return strayed(tools.system, origin, metric, end, s, tools.options.step) ||
-         std::any_of(targets.begin(), targets.end(), passes) ||
+         (!kink->is_slight && std::any_of(targets.begin(), targets.end(), passes)) ||
+         (kink->is_slight &&
+          hides_two_zeros(tools.detectors, Segment(origin.metric, origin.point(), end.point), -detector_noise)) ||
          end.point.negative_eigenvalues != origin.from.negative_eigenvalues ||
          signs_at(tools.detectors, end.point) != origin.from.signs;
 }

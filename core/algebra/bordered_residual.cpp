@@ -38,6 +38,10 @@ BorderedResidual::BorderedResidual(const Linearization& equations, double sign, 
     terms.head(n) += equations.B.cwiseAbs() * dx.tail(m).cwiseAbs();
     terms.tail(m) += equations.C.cwiseAbs() * dx.cwiseAbs();
   }
+  if (equations.N.nonZeros() > 0) {
+    r_.noalias() -= equations.N * dx;
+    terms.noalias() += equations.N.cwiseAbs() * dx.cwiseAbs();
+  }
   size_ = r_.norm();
   small_ = std::max(good * f.norm(), rounding * terms.norm());
 }

@@ -34,6 +34,7 @@ Matrix product(const Linearization& equations, const Matrix& X) {
     Y.topRows(n).noalias() += equations.B * X.bottomRows(m);
     Y.bottomRows(m) = equations.C.lazyProduct(X);
   }
+  if (equations.N.nonZeros() > 0) Y.noalias() += equations.N * X;
   return Y;
 }
 
@@ -49,6 +50,7 @@ FactorStatus BorderedSolver::factorize(Linearization& equations, Index multiplie
                                                     .ground = equations.ground,
                                                     .same_pattern = same});
   regular_ = status == FactorStatus::ok && eliminate_border();
+  if (regular_ && equations.N.nonZeros() > 0) regular_ = unsymmetric_.factorize(equations.K, equations.N, same);
   return status;
 }
 
@@ -75,6 +77,10 @@ bool BorderedSolver::solve_inner(Matrix& X, double& cancelled) const {
   const Linearization& now = *equations_;
   const Index n = now.K.cols(), m = now.B.cols();
   cancelled = 1.0;
+  if (now.N.nonZeros() > 0) {
+    unsymmetric_.solve(X);
+    return all_finite(X);
+  }
   if (m == 0) {
     inner_->solve(X);
     return all_finite(X);
@@ -93,9 +99,10 @@ bool BorderedSolver::solve_inner(Matrix& X, double& cancelled) const {
 }
 
 // Where K is nearly singular but J is not, y and K⁻¹ B are large multiples of one vector, and what they differ in is
-// small beside them. Pivots of a fine mesh are far apart anyway: the whole is soft beside an element.
+// small beside them. Pivots of a fine mesh are far apart anyway: the whole is soft beside an element. Of an unsymmetric
+// part no pivots are known.
 bool BorderedSolver::is_suspicious(double cancelled) const {
-  return !(cancelled < suspicious_cancellation) ||
+  return !(cancelled < suspicious_cancellation) || equations_->N.nonZeros() > 0 ||
          (inner_->pivot_ratio() < suspicious_pivot && !(inner_->growth(equations_->K) < suspicious_growth));
 }
 

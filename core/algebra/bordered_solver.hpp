@@ -6,6 +6,7 @@
 
 #include "core/algebra/factorization.hpp"
 #include "core/algebra/singular_bordered_solver.hpp"
+#include "core/algebra/unsymmetric_factors.hpp"
 #include "core/equilibrium_line.hpp"
 #include "core/linearization.hpp"
 
@@ -53,6 +54,9 @@ class BorderedSolver {
   /// The factorization of K alone.
   const Factorization& inner() const { return *inner_; }
 
+  /// K + N, where the equations have an N and inner_is_regular().
+  const UnsymmetricFactors& unsymmetric() const { return unsymmetric_; }
+
   /// What makes such factorizations.
   const MakeFactorization& make() const { return make_; }
 
@@ -84,6 +88,7 @@ class BorderedSolver {
   MakeFactorization make_;
   std::unique_ptr<Factorization> inner_;
   SingularBorderedSolver whole_;
+  UnsymmetricFactors unsymmetric_;  // of K + N
   Index multipliers_ = 0;
   bool regular_ = false;
   Matrix border_;  // K⁻¹ B

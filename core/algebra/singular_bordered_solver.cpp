@@ -14,7 +14,7 @@ void SingularBorderedSolver::factorize(Linearization& equations, const Row& bord
                                        const Vector& soft) {
   equations_ = &equations;
   border_ = border;
-  has_spring_ = add_spring(multipliers, soft);
+  has_spring_ = equations.N.nonZeros() == 0 && add_spring(multipliers, soft);
 }
 
 std::optional<Direction> SingularBorderedSolver::solve(const Vector& f, double g) {
@@ -111,6 +111,8 @@ SparseMatrix SingularBorderedSolver::with_one_held(Index held) const {
     if (value != 0.0) entries.emplace_back(row, column, value);
   };
   for_each_of_both_triangles(now.K, add);
+  for (Index k = 0; k < now.N.outerSize(); ++k)
+    for (SparseMatrix::InnerIterator entry(now.N, k); entry; ++entry) add(entry.row(), entry.col(), entry.value());
   for (Index k = 0; k < m; ++k) {
     for (Index i = 0; i < n; ++i) add(i, n + k, now.B(i, k));
     for (Index i = 0; i < last; ++i) add(n + k, i, now.C(k, i));
