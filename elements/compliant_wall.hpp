@@ -28,6 +28,9 @@ class WallGap {
   };
   /// With second derivatives; only where the gap is finite.
   virtual Response at(const Vec2& place, double lambda) const = 0;
+
+  /// Likewise the arc length along the wall, with the structure to its left, of what a place faces [length].
+  virtual Response along(const Vec2& place, double lambda) const = 0;
 };
 
 /// The pressure of a compliant wall by the penetration p ≥ 0, by length of a member's axis [force/length].
@@ -65,8 +68,9 @@ struct CompliantWall {
   std::shared_ptr<const WallGap> gap{}, gap_of_ramp{};  ///< on the path, and while what is constant grows
   std::shared_ptr<const PressureLaw> law{};
   Touched touched = Touched::axis;
-  double kept_off = 0.0;  ///< the half height that the gap of an outside counts already [length]
-  bool is_over = false;   ///< the members, of a wall that faces touch
+  double kept_off = 0.0;   ///< the half height that the gap of an outside counts already [length]
+  bool is_over = false;    ///< the members, of a wall that faces touch
+  bool rubs_axis = false;  ///< friction acts on the axis, whatever is touched
 };
 
 }  // namespace arcwall

@@ -225,7 +225,7 @@ std::vector<std::unique_ptr<Element>> make_wall_pressures(const MemberElement& a
   const MemberMesh& mesh = at.mesh;
   const bool is_slender = at.member.theory == Theory::euler_bernoulli || at.member.theory == Theory::elastica;
   std::vector<std::unique_ptr<Element>> pressures;
-  for (const double face : faces_towards(wall, at.chord())) {
+  const auto on_line = [&](double face) {
     std::vector<WallPressure::Node> nodes;
     const auto add = [&](const AxisPoint& axis, const AxisPoint& shape, double fraction) {
       nodes.push_back(wall_node(at, wall, axis, shape, fraction, face));
@@ -237,9 +237,13 @@ std::vector<std::unique_ptr<Element>> make_wall_pressures(const MemberElement& a
     }
     add(mesh.axis[at.k + 1], mesh.shape[at.k + 1], 1.0);
     const int stride = at.member.theory == Theory::essenburg ? EssenburgBeam::unknowns_a_node : 3;
-    pressures.push_back(
-        std::make_unique<WallPressure>(is_slender ? WallPressure::Shape::cubic : WallPressure::Shape::lagrange,
-                                       std::move(nodes), stride, ramp ? wall.gap_of_ramp : wall.gap, wall.law));
+    return std::make_unique<WallPressure>(is_slender ? WallPressure::Shape::cubic : WallPressure::Shape::lagrange,
+                                          std::move(nodes), stride, ramp ? wall.gap_of_ramp : wall.gap, wall.law);
+  };
+  for (const double face : faces_towards(wall, at.chord())) {
+    auto pressure = on_line(face);
+    if (wall.rubs_axis && face != 0.0) pressure->set_rubbing_line(on_line(0.0));
+    pressures.push_back(std::move(pressure));
   }
   return pressures;
 }

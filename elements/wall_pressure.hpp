@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/types.hpp"
@@ -22,6 +23,8 @@ struct PressedPart {
 ///
 /// over the stress-free axis. The edges of contact inside the element are solved for, and Gauss's rule of eight points
 /// is applied between them and the kinks of W, so that V is as smooth as the gap: W and W′ vanish at edges.
+///
+/// Friction is no potential: rubbed() tells what it depends on.
 class WallPressure final : public DrivenElement {
  public:
   /// A node of the element: what touches there is at the place + o d + o² q of its section.
@@ -41,6 +44,9 @@ class WallPressure final : public DrivenElement {
   /// `stride`: unknowns of a node, 3 or 5 with the displacements first and the rotation third.
   WallPressure(Shape shape, std::vector<Node> nodes, int stride, std::shared_ptr<const WallGap> wall,
                std::shared_ptr<const PressureLaw> law);
+
+  /// Friction acts on the line of another one with the same nodes; empty: on what touches.
+  void set_rubbing_line(std::unique_ptr<const WallPressure> line) { rubbing_ = std::move(line); }
 
   int unknown_count() const override { return stride_ * static_cast<int>(nodes_.size()); }
   double evaluate_at(const double* u, double lambda, double* f, double* K, double* f_lambda) const override;
@@ -89,6 +95,38 @@ class WallPressure final : public DrivenElement {
   /// The pressure at a fraction [force/length].
   double pressure(const double* u, double lambda, double fraction) const;
 
+  /// Material points at which friction acts: the ends of the element, where ends of members touch, and so many in all
+  /// at equal distances. Each stands for the part of the element that is nearest to it.
+  static constexpr std::size_t rubbing_points = 5;
+  static constexpr double rubbing_point(std::size_t point) { return double(point) / double(rubbing_points - 1); }
+
+  /// What friction depends on at such a point: the force across the wall on its part of the element, and its place
+  /// along the wall [force, length], with their derivatives by the unknowns and by λ.
+  struct Rubbed {
+    bool faces_wall = false;  ///< else there is no place
+    double length = 0.0;      ///< of the stress-free axis
+    double force = 0.0, force_rate = 0.0;
+    double place = 0.0, place_rate = 0.0;
+    std::array<double, max_unknowns> force_by{}, place_by{};
+  };
+  std::array<Rubbed, rubbing_points> rubbed(const double* u, double lambda) const;
+
+  /// Adds `factor` times the second derivatives of the place of a point by the unknowns, in the lower triangle of K,
+  /// and by these and λ.
+  void add_second_of_place(const double* u, double lambda, std::size_t point, double factor, double* K,
+                           double* f_lambda) const;
+
+  /// What a friction force T along the wall exerts at a point, T given with its derivatives.
+  struct ForceAlong {
+    double value = 0.0, rate = 0.0;
+    std::array<double, max_unknowns> by_unknowns{};
+  };
+  Resultant friction_resultant(const double* u, double lambda, std::size_t point, const ForceAlong& T,
+                               const Vec2& about) const;
+
+  /// The unit tangent of the wall at a point.
+  Vec2 tangent(const double* u, double lambda, std::size_t point) const;
+
   /// Whether a pressed part ends where the wall has no surface: there forces jump.
   bool leaves_surface(const double* u, double lambda) const;
 
@@ -103,6 +141,7 @@ class WallPressure final : public DrivenElement {
   int stride_;
   std::shared_ptr<const WallGap> wall_;
   std::shared_ptr<const PressureLaw> law_;
+  std::unique_ptr<const WallPressure> rubbing_{};
 };
 
 }  // namespace arcwall

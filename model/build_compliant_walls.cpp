@@ -8,13 +8,21 @@
 
 namespace arcwall {
 
+namespace {
+
+const deck::WallLaw& law_of(const deck::Deck& deck, const deck::Wall& wall) {
+  return wall.law ? *wall.law : *deck.contact.law;
+}
+
+}  // namespace
+
 std::vector<CompliantWallOfMember> compliant_walls(const deck::Deck& deck,
                                                    const std::function<const MemberMesh&(Index)>& mesh_of) {
   std::vector<CompliantWallOfMember> walls;
   if (!deck.contact.is_compliant()) return walls;
   using Touched = CompliantWall::Touched;
   for (const deck::Wall& wall : walls_in_parts(deck)) {
-    const auto law = std::make_shared<const PressureLaw>((wall.law ? wall.law : deck.contact.law)->law());
+    const auto law = std::make_shared<const PressureLaw>(law_of(deck, wall).law());
     deck::Wall at_rest = wall;
     at_rest.motion.reset();
     for (std::size_t m = 0; m < deck.members.size(); ++m) {
@@ -24,7 +32,11 @@ std::vector<CompliantWallOfMember> compliant_walls(const deck::Deck& deck,
       const double off = kept_off(wall, mesh_of(index).height_at(0.5).value_or(0.0));
       const std::shared_ptr<const Obstacle> obstacle = obstacle_of(wall, off);
       const bool on_axis = wall.contact_surface == deck::ContactSurface::axis;
-      walls.push_back({.contact = {.name = wall.name, .member = index, .obstacle = obstacle},
+      walls.push_back({.contact = {.name = wall.name,
+                                   .member = index,
+                                   .obstacle = obstacle,
+                                   .friction = deck::friction_of(deck, wall, member.name, 0.5),
+                                   .tangential_stiffness = law_of(deck, wall).along()},
                        .pressure = {.gap = gap_to(obstacle),
                                     .gap_of_ramp = gap_to(obstacle_of(at_rest, off)),
                                     .law = law,
@@ -32,7 +44,8 @@ std::vector<CompliantWallOfMember> compliant_walls(const deck::Deck& deck,
                                                : wall.outline ? Touched::outside
                                                               : Touched::face,
                                     .kept_off = off,
-                                    .is_over = wall.side == Side::above}});
+                                    .is_over = wall.side == Side::above,
+                                    .rubs_axis = deck.contact.friction_at == deck::FrictionAt::axis}});
     }
   }
   return walls;
@@ -63,6 +76,35 @@ std::optional<WithoutClearance> without_clearance(const deck::Deck& deck, const 
   return std::nullopt;
 }
 
+// What friction along members asks besides.
+void check_friction_along(const deck::Deck& deck, DeckProblems& problems) {
+  for (const deck::FrictionPair& pair : deck.frictions)
+    if (!pair.point.empty())
+      problems.add(pair.position, "friction.point",
+                   "friction of compliant walls acts along members, and a point has none of its own",
+                   "name the member");
+  const bool on_axis = deck.contact.friction_at == deck::FrictionAt::axis;
+  for (const deck::Wall& wall : deck.walls) {
+    const bool rough = std::any_of(deck.members.begin(), deck.members.end(), [&](const deck::Member& member) {
+      return concerns(wall, member.name) && deck::friction_of(deck, wall, member.name, 0.5) > 0.0;
+    });
+    if (!rough) continue;
+    if (const auto& law = law_of(deck, wall); !(law.along() > 0.0))
+      problems.add(wall.position, "wall.law",
+                   "the law has no stiffness at penetration 0, from which that along the wall could be taken",
+                   "give the law a tangential_stiffness");
+    if (wall.contact_surface != deck::ContactSurface::face) continue;
+    if (wall.outline && !on_axis)
+      problems.add(wall.position, "wall.friction", "friction on faces that roll on an outline is not known",
+                   "write contact.friction_at = \"axis\" or contact_surface = \"axis\", or use a profile");
+    const bool is_flat = std::holds_alternative<deck::FlatProfile>(wall.profile) ||
+                         std::holds_alternative<deck::LineProfile>(wall.profile);
+    if (!wall.outline && !is_flat && on_axis)
+      problems.add(wall.position, "wall.friction", "friction on the axis beside a curved profile is not known",
+                   "use an outline, or leave out contact.friction_at");
+  }
+}
+
 }  // namespace
 
 void check_compliant_walls(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
@@ -76,8 +118,7 @@ void check_compliant_walls(const deck::Deck& deck, const Structure& structure, D
   if (deck.path.method == deck::PathMethod::incremental)
     problems.add(deck.path.position, "path.method", "method \"incremental\" does not support compliant walls",
                  "use \"spherical\", or contact.method = \"penalty\"");
-  if (deck::has_friction(deck))
-    problems.add({}, "contact.method", "compliant walls have no friction", "contact.method = \"multiplier\" has");
+  check_friction_along(deck, problems);
   bool possible = true;
   for (const deck::Wall& wall : deck.walls) {
     if (wall.interference > 0.0)

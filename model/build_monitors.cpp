@@ -216,6 +216,12 @@ std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Pla
 
 namespace {
 
+// Compliant walls with friction; null where there are none.
+const CompliantContact* with_friction(const Measured& from) {
+  const auto* const compliant = dynamic_cast<const CompliantContact*>(from.contacts);
+  return compliant != nullptr && compliant->elastic_friction() != nullptr ? compliant : nullptr;
+}
+
 // The resultant force of a wall, on a member or on its end where these are named; null where the deck has other
 // problems, so that nothing is traced.
 std::shared_ptr<const Observable> wall_force(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
@@ -224,10 +230,13 @@ std::shared_ptr<const Observable> wall_force(const deck::Deck& deck, const Measu
   if (from.contacts == nullptr) return std::make_shared<ParameterValue>();
   if (deck::is_of_friction(monitor.component)) {
     const auto* const friction = dynamic_cast<const FrictionalContact*>(from.contacts);
-    if (friction == nullptr) return std::make_shared<ParameterValue>();
     const FrictionAtWall::What what = monitor.component == deck::Component::friction_force ? FrictionAtWall::What::force
                                       : monitor.component == deck::Component::slip         ? FrictionAtWall::What::slip
                                                                                    : FrictionAtWall::What::greatest_use;
+    if (const auto* const compliant = with_friction(from))
+      return std::make_shared<ElasticFrictionAtWall>(
+          *compliant, ContactsOfWall{.wall = wall.name, .member = std::move(member), .fraction = end}, what);
+    if (friction == nullptr) return std::make_shared<ParameterValue>();
     return std::make_shared<FrictionAtWall>(
         *from.contacts, *friction, ContactsOfWall{.wall = wall.name, .member = std::move(member), .fraction = end},
         what);
@@ -278,7 +287,8 @@ std::shared_ptr<const Observable> gap(const deck::Deck& deck, const Measured& fr
                  "add the member to `members` of the wall, or name a place of a member that is there");
     return nullptr;
   }
-  if (monitor.component != deck::Component::gap && deck.contact.is_compliant()) {
+  const bool is_of_place = monitor.component == deck::Component::gap || monitor.component == deck::Component::slip;
+  if (!is_of_place && deck.contact.is_compliant()) {
     problems.add(monitor.position, "monitor.at",
                  "a compliant wall presses along members: it has no force at \"" + to_text(monitor.at) + "\"",
                  "give `member` instead of `at`");
@@ -464,6 +474,8 @@ std::shared_ptr<const Observable> shown_by(const deck::Deck& deck, const Measure
   if (monitor.component == deck::Component::mean_pressure) return mean(deck, from, monitor);
   if (monitor.component == deck::Component::dissipation) {
     const auto* const friction = dynamic_cast<const FrictionalContact*>(from.contacts);
+    if (const auto* const compliant = with_friction(from))
+      return std::make_shared<ElasticFrictionPower>(*compliant, monitor.wall);
     if (friction == nullptr) return std::make_shared<ParameterValue>();  // the deck has other problems
     return std::make_shared<FrictionPower>(*from.contacts, *friction, monitor.wall);
   }

@@ -17,6 +17,15 @@ constexpr double out_of_reach = 1.0;
 // Gaps that are none [scale of gaps].
 constexpr double touching = 1e-11;
 
+WallGap::Response response_of(const QuadraticField& f, double sign) {
+  WallGap::Response out{.value = sign * f.value,
+                        .rate = sign * f.rate,
+                        .slope = sign * Vec2(f.x, f.z),
+                        .slope_rate = sign * Vec2(f.x_rate, f.z_rate)};
+  out.second << sign * f.xx, sign * f.xz, sign * f.xz, sign * f.zz;
+  return out;
+}
+
 class GapToObstacle final : public WallGap {
  public:
   explicit GapToObstacle(std::shared_ptr<const Obstacle> obstacle) : obstacle_(std::move(obstacle)) {}
@@ -26,10 +35,10 @@ class GapToObstacle final : public WallGap {
     return {.value = g.value, .slope = {g.x, g.z}};
   }
   Response at(const Vec2& place, double lambda) const override {
-    const QuadraticField g = obstacle_->gap(place, lambda);
-    Response out{.value = g.value, .rate = g.rate, .slope = {g.x, g.z}, .slope_rate = {g.x_rate, g.z_rate}};
-    out.second << g.xx, g.xz, g.xz, g.zz;
-    return out;
+    return response_of(obstacle_->gap(place, lambda), 1.0);
+  }
+  Response along(const Vec2& place, double lambda) const override {
+    return response_of(obstacle_->arc_length(place, lambda), sign_of(obstacle_->side()));
   }
 
  private:
@@ -75,6 +84,27 @@ CompliantContact::CompliantContact(const Structure& structure, std::vector<Wall>
                                     .from = mesh.fraction(k),
                                     .to = mesh.fraction(k + 1)});
   }
+  add_friction();
+}
+
+void CompliantContact::add_friction() {
+  std::vector<CompliantFriction::Pressed> rough;
+  for (std::size_t j = 0; j < walls_.size(); ++j) {
+    if (!(walls_[j].friction > 0.0)) continue;
+    std::vector<double> rounds;
+    for (const double round : {walls_[j].obstacle->round_length(), 2.0 * pi * walls_[j].obstacle->half_height()})
+      if (round > 0.0) rounds.push_back(round);
+    for (const Pressed& pressed : pressed_[j])
+      rough.push_back({.pressure = pressed.pressure,
+                       .element = pressed.element,
+                       .contact = j,
+                       .from = pressed.from,
+                       .to = pressed.to,
+                       .coefficient = walls_[j].friction,
+                       .stiffness = walls_[j].tangential_stiffness,
+                       .rounds = rounds});
+  }
+  if (!rough.empty()) friction_ = std::make_unique<CompliantFriction>(structure_, std::move(rough), walls_.size());
 }
 
 CompliantContact::Local CompliantContact::local(const State& state, const Pressed& pressed) const {
@@ -154,8 +184,8 @@ void CompliantContact::add(const Pressed& pressed, const double* by_unknowns, do
     }
 }
 
-const std::string& CompliantContact::member_of(std::size_t j) const {
-  return structure_.members()[static_cast<std::size_t>(walls_[j].member)].name;
+const std::string& CompliantContact::member_of(Index j) const {
+  return structure_.members()[static_cast<std::size_t>(wall(j).member)].name;
 }
 
 CompliantContact::Nearest CompliantContact::nearest(const State& state, Index j) const {
@@ -174,7 +204,7 @@ ContactPoint CompliantContact::at_fraction(const State& state, std::size_t j, co
   const Local at = local(state, pressed);
   const Obstacle& obstacle = *walls_[j].obstacle;
   ContactPoint point{.label = {.wall = walls_[j].name,
-                               .member = member_of(j),
+                               .member = member_name(j),
                                .fraction = std::lerp(pressed.from, pressed.to, fraction)},
                      .place = pressed.pressure->place(at.u, fraction)};
   if (!obstacle.faces(point.place, state.lambda)) return point;
@@ -187,10 +217,10 @@ ContactPoint CompliantContact::at_fraction(const State& state, std::size_t j, co
 ContactPoint CompliantContact::contact(const State& state, Index j) const {
   const auto wall = static_cast<std::size_t>(j);
   const Least found = least(state, wall);
-  if (found.at == nullptr) return {.label = {.wall = walls_[wall].name, .member = member_of(wall)}};
+  if (found.at == nullptr) return {.label = {.wall = walls_[wall].name, .member = member_of(j)}};
   ContactPoint point = at_fraction(state, wall, *found.at, found.fraction);
   point.force = force(state, j);
-  const auto action = wall_action(state, {.wall = walls_[wall].name, .member = member_of(wall)}, Vec2::Zero());
+  const auto action = wall_action(state, {.wall = walls_[wall].name, .member = member_of(j)}, Vec2::Zero());
   point.force_vector = {action.value[0], action.value[1]};
   return point;
 }
@@ -206,8 +236,40 @@ double CompliantContact::force(const State& state, Index j) const {
   return sum;
 }
 
+namespace {
+
+// What friction does on a pressed part of an element: the sum of its material points, between fractions of the member.
+// Where these differ in what they do it sticks.
+std::optional<FrictionOfContact> friction_between(const CompliantFriction& friction, const State& state,
+                                                  const std::vector<CompliantFriction::Point>& points,
+                                                  const WallPressure* on, double coefficient, double from, double to) {
+  constexpr double half = 0.5 * WallPressure::rubbing_point(1);
+  FrictionOfContact sum{.coefficient = coefficient};
+  std::optional<int> sense;
+  double most = 0.0;
+  bool alike = true;
+  for (const CompliantFriction::Point& point : points) {
+    const double reach = half * (point.pressed->to - point.pressed->from);
+    if (point.pressed->pressure != on || point.fraction + reach <= from || point.fraction - reach >= to) continue;
+    alike = alike && sense.value_or(point.sense) == point.sense;
+    sense = point.sense;
+    sum.force += point.force;
+    sum.slip += point.most * point.slip;
+    most += point.most;
+    sum.tangent = friction.tangent(state, point);
+  }
+  if (!sense) return std::nullopt;
+  if (most > 0.0) sum.slip /= most;
+  const bool slips = alike && *sense != 0;
+  sum.mode = !slips ? ContactMode::sticks : *sense > 0 ? ContactMode::slips_forward : ContactMode::slips_backward;
+  return sum;
+}
+
+}  // namespace
+
 std::vector<ContactPoint> CompliantContact::closed_contacts(const State& state) const {
   std::vector<ContactPoint> contacts;
+  const auto points = friction_ ? friction_->points(state) : std::vector<CompliantFriction::Point>();
   for (std::size_t j = 0; j < walls_.size(); ++j) {
     if (!acts(state, j)) continue;
     double reached = -1.0;  // the end of the last part, as a fraction of the member
@@ -230,6 +292,10 @@ std::vector<ContactPoint> CompliantContact::closed_contacts(const State& state) 
         middle.force = borne.force;
         middle.force_vector = borne.vector;
         middle.label.tributary = borne.length;
+        if (walls_[j].friction > 0.0)
+          middle.friction = friction_between(*friction_, state, points, pressed.pressure, walls_[j].friction, begin,
+                                             std::lerp(pressed.from, pressed.to, part.to));
+        if (middle.friction) middle.force_vector += middle.friction->force * middle.friction->tangent;
         contacts.push_back(std::move(middle));
         reached = std::lerp(pressed.from, pressed.to, part.to);
         last = &pressed;
@@ -244,7 +310,7 @@ std::vector<ContactPoint> CompliantContact::closed_contacts(const State& state) 
 WallAction CompliantContact::wall_action(const State& state, const ContactsOfWall& of, const Vec2& about) const {
   WallAction action(state.x.size());
   for (std::size_t j = 0; j < walls_.size(); ++j) {
-    if (!acts(state, j) || !of.includes_wall(walls_[j].name) || (!of.member.empty() && of.member != member_of(j)))
+    if (!acts(state, j) || !of.includes_wall(walls_[j].name) || (!of.member.empty() && of.member != member_name(j)))
       continue;
     for (const Pressed& pressed : pressed_[j]) {
       const auto resultant = pressed.pressure->resultant(local(state, pressed).u, state.lambda, about);
@@ -255,6 +321,12 @@ WallAction CompliantContact::wall_action(const State& state, const ContactsOfWal
       }
     }
   }
+  if (friction_)
+    for (const CompliantFriction::Point& point : friction_->points(state)) {
+      const std::size_t j = point.pressed->contact;
+      if (of.includes_wall(walls_[j].name) && (of.member.empty() || of.member == member_name(j)))
+        friction_->add_action(state, point, about, action);
+    }
   return action;
 }
 
@@ -284,14 +356,14 @@ StepVerdict CompliantContact::check(const CheckedStep& step) const {
       if (line_passes_core(*walls_[j].obstacle, in_step(0.0), in_step(1.0), step.from.lambda, step.to.lambda,
                            1e-6 * length_))
         return {.fault = StepVerdict::Fault::wall_crossed,
-                .place = words_of({.wall = walls_[j].name, .member = member_of(j), .fraction = pressed.from})};
+                .place = words_of({.wall = walls_[j].name, .member = member_name(j), .fraction = pressed.from})};
     }
   }
   for (std::size_t j = 0; j < walls_.size(); ++j)
     for (const Pressed& pressed : pressed_[j])
       if (acts(step.to, j) && pressed.pressure->leaves_surface(local(step.to, pressed).u, step.to.lambda))
         return {.fault = StepVerdict::Fault::wall_left,
-                .place = words_of({.wall = walls_[j].name, .member = member_of(j), .fraction = pressed.from})};
+                .place = words_of({.wall = walls_[j].name, .member = member_name(j), .fraction = pressed.from})};
   return {};
 }
 
@@ -340,7 +412,7 @@ std::optional<PathKink> CompliantContact::kink_between(const State& from, const 
       return PathKink{.past = std::make_shared<Penetrated>(*this, j, 1.0, depth * length_)};
     if (before > 0.0 && after < 0.0) return PathKink{.past = std::make_shared<Penetrated>(*this, j, -1.0, 0.0)};
   }
-  return std::nullopt;
+  return friction_ ? friction_->kink_between(from, to) : std::nullopt;
 }
 
 }  // namespace arcwall

@@ -10,10 +10,9 @@
 #include "contact/obstacle.hpp"
 #include "core/system.hpp"
 #include "elements/structure.hpp"
+#include "model/compliant_friction.hpp"
 
 namespace arcwall {
-
-class WallPressure;
 
 /// The gap of places to an obstacle.
 std::shared_ptr<const WallGap> gap_to(std::shared_ptr<const Obstacle> obstacle);
@@ -26,6 +25,8 @@ std::shared_ptr<const WallGap> gap_to(std::shared_ptr<const Obstacle> obstacle);
 /// whose energy closed walls are part and open ones are not: both agree where a contact changes. Its guard is the least
 /// gap along the member while it is open, and minus that while it is closed; it has no multiplier, and compliance 1.
 ///
+/// With friction the equations have the history of material points (CompliantFriction) in their layout.
+///
 /// A stiff wall bears a force at penetrations that no step resolves: the path has a kink where it is touched and where
 /// it is left (kink_between()).
 class CompliantContact final : public System, public ContactQuery {
@@ -35,20 +36,36 @@ class CompliantContact final : public System, public ContactQuery {
     std::string name{};
     Index member = 0;
     std::shared_ptr<const Obstacle> obstacle{};
+    double friction = 0.0;              ///< coefficient μ [-]
+    double tangential_stiffness = 0.0;  ///< of what sticks, by length of the axis [force/length²]
   };
 
   /// `structure` must outlive this. `length`: scale of gaps.
   CompliantContact(const Structure& structure, std::vector<Wall> walls, double length);
 
   Index size(const ActiveSet&) const override { return structure_.size({}); }
-  void residual(const State& state, Eigen::Ref<Vector> F) const override { structure_.residual(state, F); }
-  void linearize(const State& state, Linearization& out) const override { structure_.linearize(state, out); }
-  double energy(const State& state) const override { return structure_.energy(state); }
+  void residual(const State& state, Eigen::Ref<Vector> F) const override {
+    structure_.residual(state, F);
+    if (friction_) friction_->add(state, F);
+  }
+  void linearize(const State& state, Linearization& out) const override {
+    structure_.linearize(state, out);
+    if (friction_) friction_->add(state, out);
+  }
+  double energy(const State& state) const override {
+    return structure_.energy(state) + (friction_ ? friction_->energy(state) : 0.0);
+  }
   Vector weights(const ActiveSet&) const override { return structure_.weights({}); }
   std::vector<Index> turning_sets(const ActiveSet&) const override { return structure_.turning_sets({}); }
   double squared_motion_by_lambda(const ActiveSet&) const override;
 
-  ActiveSet open_active_set() const override { return ActiveSet(walls_.size(), std::uint8_t{0}); }
+  ActiveSet open_active_set() const override {
+    return ActiveSet(walls_.size(), std::uint8_t{0}, friction_ ? friction_->rest() : nullptr);
+  }
+  const PathHistory* history() const override { return friction_.get(); }
+
+  /// The friction of the walls; null if they have none.
+  const CompliantFriction* elastic_friction() const { return friction_.get(); }
   Vector guards(const State& state) const override;
   double guard(const State& state, Index j) const override;
   Row guard_gradient(const State& state, Index j) const override;
@@ -62,6 +79,7 @@ class CompliantContact final : public System, public ContactQuery {
 
   Index contact_count() const { return static_cast<Index>(walls_.size()); }
   const Wall& wall(Index j) const { return walls_[static_cast<std::size_t>(j)]; }
+  const std::string& member_of(Index j) const;
 
   /// The least gap between the wall and the member, and where it is [length]; infinite where they do not face.
   struct Nearest {
@@ -88,6 +106,7 @@ class CompliantContact final : public System, public ContactQuery {
   std::vector<Place> places(const State& state, Index j, int parts) const;
 
  private:
+  void add_friction();
   // An element under the pressure of a wall.
   struct Pressed {
     const WallPressure* pressure;
@@ -106,11 +125,11 @@ class CompliantContact final : public System, public ContactQuery {
   Local local(const State& state, const Pressed& pressed) const;
   Least least(const State& state, std::size_t j) const;
   double guard_of(const State& state, std::size_t j, double gap) const;
-  const std::string& member_of(std::size_t j) const;
   // Of a contact at a fraction of an element.
   ContactPoint at_fraction(const State& state, std::size_t j, const Pressed& pressed, double fraction) const;
   // Adds a row by an element's unknowns.
   void add(const Pressed& pressed, const double* by_unknowns, double factor, Row& row) const;
+  const std::string& member_name(std::size_t j) const { return member_of(static_cast<Index>(j)); }
   bool acts(const State& state, std::size_t j) const {
     return j >= state.active_set.contacts() || state.active_set[j] != 0;
   }
@@ -123,6 +142,7 @@ class CompliantContact final : public System, public ContactQuery {
   std::vector<Wall> walls_;
   std::vector<std::vector<Pressed>> pressed_;  // of each wall
   double length_;
+  std::unique_ptr<CompliantFriction> friction_{};
 };
 
 }  // namespace arcwall

@@ -64,4 +64,67 @@ Row FrictionPower::gradient(const State& state) const {
   return row;
 }
 
+namespace {
+
+double use_of(const CompliantFriction::Point& point) {
+  return point.sense != 0 ? 1.0 : std::abs(point.force) / point.most;
+}
+
+}  // namespace
+
+// Those that tell: of slip and of the greatest use one at most.
+std::vector<CompliantFriction::Point> ElasticFrictionAtWall::points(const State& state) const {
+  std::vector<CompliantFriction::Point> points = contact_.elastic_friction()->points(state);
+  std::erase_if(points, [&](const CompliantFriction::Point& point) {
+    const auto j = static_cast<Index>(point.pressed->contact);
+    return !of_.includes_wall(contact_.wall(j).name) || (!of_.member.empty() && contact_.member_of(j) != of_.member);
+  });
+  if (what_ == FrictionAtWall::What::force || points.empty()) return points;
+  const auto rank = [&](const CompliantFriction::Point& point) {
+    return what_ == FrictionAtWall::What::slip ? -std::abs(point.fraction - of_.fraction.value_or(0.5)) : use_of(point);
+  };
+  return {
+      *std::max_element(points.begin(), points.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); })};
+}
+
+double ElasticFrictionAtWall::value(const State& state) const {
+  const auto all = points(state);
+  if (what_ == FrictionAtWall::What::greatest_use)
+    return all.empty() ? std::numeric_limits<double>::quiet_NaN() : use_of(all.front());
+  double sum = 0.0;
+  for (const CompliantFriction::Point& point : all)
+    sum += what_ == FrictionAtWall::What::slip ? point.slip : point.force;
+  return sum;
+}
+
+Row ElasticFrictionAtWall::gradient(const State& state) const {
+  Row sum{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  const auto add = [&](const Row& row, double factor) {
+    sum.dx += factor * row.dx;
+    sum.dlambda += factor * row.dlambda;
+  };
+  for (const CompliantFriction::Point& point : points(state)) {
+    const CompliantFriction::Rows rows = contact_.elastic_friction()->rows(state, point);
+    if (what_ == FrictionAtWall::What::force) add(rows.force, 1.0);
+    if (what_ == FrictionAtWall::What::slip) add(rows.slip, 1.0);
+    if (what_ != FrictionAtWall::What::greatest_use || point.sense != 0) continue;
+    add(rows.force, (point.force < 0.0 ? -1.0 : 1.0) / point.most);
+    add(rows.most, -std::abs(point.force) / (point.most * point.most));
+  }
+  return sum;
+}
+
+Row ElasticFrictionPower::gradient(const State& state) const {
+  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  const CompliantFriction& friction = *contact_.elastic_friction();
+  for (const CompliantFriction::Point& point : friction.points(state)) {
+    const std::string& name = contact_.wall(static_cast<Index>(point.pressed->contact)).name;
+    if (point.sense == 0 || (!wall_.empty() && name != wall_)) continue;
+    const Row slip = friction.rows(state, point).slip;
+    row.dx -= point.force * slip.dx;
+    row.dlambda -= point.force * slip.dlambda;
+  }
+  return row;
+}
+
 }  // namespace arcwall

@@ -2,10 +2,12 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "contact/contact_point.hpp"
 #include "core/frictional_contact.hpp"
 #include "core/observable.hpp"
+#include "model/compliant_contact.hpp"
 
 namespace arcwall {
 
@@ -51,6 +53,38 @@ class FrictionPower final : public Observable {
  private:
   const ContactQuery& contacts_;
   const FrictionalContact& friction_;
+  std::string wall_;
+};
+
+/// The same of compliant walls: their material points, of which that nearest to a place tells its slip.
+class ElasticFrictionAtWall final : public Observable {
+ public:
+  /// `contact` must outlive this, and has friction.
+  ElasticFrictionAtWall(const CompliantContact& contact, ContactsOfWall of, FrictionAtWall::What what)
+      : contact_(contact), of_(std::move(of)), what_(what) {}
+
+  double value(const State& state) const override;
+  Row gradient(const State& state) const override;
+
+ private:
+  std::vector<CompliantFriction::Point> points(const State& state) const;
+
+  const CompliantContact& contact_;
+  ContactsOfWall of_;
+  FrictionAtWall::What what_;
+};
+
+/// As FrictionPower.
+class ElasticFrictionPower final : public Observable {
+ public:
+  /// `contact` must outlive this, and has friction. `wall`: empty for all.
+  ElasticFrictionPower(const CompliantContact& contact, std::string wall) : contact_(contact), wall_(std::move(wall)) {}
+
+  double value(const State&) const override { return 0.0; }
+  Row gradient(const State& state) const override;
+
+ private:
+  const CompliantContact& contact_;
   std::string wall_;
 };
 

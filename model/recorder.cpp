@@ -7,6 +7,7 @@
 #include "model/deck/key_list.hpp"
 #include "model/dissipation.hpp"
 #include "model/event_names.hpp"
+#include "model/friction_at_wall.hpp"
 
 namespace arcwall {
 
@@ -51,7 +52,11 @@ std::vector<RecordForce> forces_at(const Model* model, const State& state) {
 // By differences: a system gives Π, but not its derivatives by λ and by the places of contact points.
 double energy_rate(const Model& model, const State& state, const Direction& tangent) {
   constexpr double step = 1e-6;  // [path metric]
-  return (model.energy(moved(state, tangent, step)) - model.energy(moved(state, tangent, -step))) / (2.0 * step);
+  const double at_fixed_slips =
+      (model.energy(moved(state, tangent, step)) - model.energy(moved(state, tangent, -step))) / (2.0 * step);
+  if (model.system().history() == nullptr) return at_fixed_slips;
+  const ElasticFrictionPower power(*model.compliant(), "");
+  return at_fixed_slips - model.frame().factor() * power.rate(state, tangent);
 }
 
 // Empty without a tangent.
@@ -147,9 +152,26 @@ std::vector<double> Recorder::dissipation_at_start() const {
   return std::vector<double>(model_->deck().walls.size(), 0.0);
 }
 
-// Empty without friction. `arc`: that of the point.
-std::vector<double> Recorder::dissipation_until(const PathTangent& arrives, double arc) const {
+namespace {
+
+// What friction of compliant walls has dissipated until a state, one a wall; it is part of the history.
+std::vector<double> dissipated_elastically(const Model& model, const State& state) {
+  const std::vector<deck::Wall>& walls = model.deck().walls;
+  std::vector<double> sums(walls.size(), 0.0);
+  const CompliantContact& contact = *model.compliant();
+  for (Index j = 0; j < contact.contact_count(); ++j) {
+    const auto wall = static_cast<std::size_t>(deck::find(walls, contact.wall(j).name) - walls.data());
+    sums[wall] += model.frame().factor() * contact.elastic_friction()->dissipated(state, static_cast<std::size_t>(j));
+  }
+  return sums;
+}
+
+}  // namespace
+
+// Empty without friction. `point`: where the way ends.
+std::vector<double> Recorder::dissipation_until(const PathTangent& arrives, const PathPoint& point) const {
   if (model_ == nullptr || !record_.has_friction) return {};
+  if (model_->system().history() != nullptr) return dissipated_elastically(*model_, point.state);
   if (record_.branches[branch_].points == 0) return dissipation_at_start();
   const RecordPoint& before = record_.points.back();
   std::vector<double> sums = before.dissipation;
@@ -160,7 +182,7 @@ std::vector<double> Recorder::dissipation_until(const PathTangent& arrives, doub
       if (from.contact != to.contact) continue;
       const std::string name = model_->contacts()->contact(arrives.state, to.contact).label.wall;
       const auto wall = deck::find(walls, name) - walls.data();
-      sums[static_cast<std::size_t>(wall)] += dissipated(from, to, arc - before.arc);
+      sums[static_cast<std::size_t>(wall)] += dissipated(from, to, point.arc - before.arc);
     }
   return sums;
 }
@@ -168,7 +190,7 @@ std::vector<double> Recorder::dissipation_until(const PathTangent& arrives, doub
 void Recorder::add(const Arc& arc, const PathPoint& leaves) {
   const PathPoint& to = arc.to;
   const PathTangent arrives = arc.arrives.value_or(PathTangent{.state = to.state, .tangent = to.tangent});
-  const std::vector<double> dissipation = dissipation_until(arrives, to.arc);
+  const std::vector<double> dissipation = dissipation_until(arrives, to);
   const bool has_kink = leaves.state.active_set != arrives.state.active_set;
   record_.points.push_back(
       {.branch = branch().id,

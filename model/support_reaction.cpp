@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/compliant_contact.hpp"
 #include "model/wall_force.hpp"
 
 namespace arcwall {
@@ -111,11 +112,36 @@ class Less final : public Observable {
   std::vector<WallsAtNode> parts_;
 };
 
+// A force of the structure less what friction of compliant walls exerts along its degree of freedom.
+class LessFriction final : public Observable {
+ public:
+  LessFriction(std::shared_ptr<const Observable> whole, const CompliantFriction& friction, Index dof)
+      : whole_(std::move(whole)), friction_(friction), dof_(dof) {}
+
+  double value(const State& state) const override { return whole_->value(state) - friction_.force_on(state, dof_); }
+
+  Row gradient(const State& state) const override {
+    Row row = whole_->gradient(state);
+    const Row of = friction_.force_on_gradient(state, dof_);
+    row.dx -= of.dx;
+    row.dlambda -= of.dlambda;
+    return row;
+  }
+
+ private:
+  std::shared_ptr<const Observable> whole_;
+  const CompliantFriction& friction_;
+  Index dof_;
+};
+
 }  // namespace
 
 std::shared_ptr<const Observable> support_reaction(const Measured& from, Index dof) {
   const Structure& structure = from.structure;
   auto reaction = structural_reaction(from, dof);
+  const auto* const compliant = dynamic_cast<const CompliantContact*>(from.contacts);
+  if (compliant != nullptr && compliant->elastic_friction() != nullptr && !structure.unknown(dof))
+    return std::make_shared<LessFriction>(std::move(reaction), *compliant->elastic_friction(), dof);
   if (structure.unknown(dof) || !from.walls_are_rigid) return reaction;
   std::vector<WallsAtNode> walls;
   for (const HeldNode& held : nodes_moved_by(structure, dof))

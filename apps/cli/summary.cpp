@@ -164,8 +164,29 @@ std::string lies_on(const MultiplierContact& contact, const std::string& wall, c
   return {};
 }
 
+// Of compliant walls.
+void add_elastic_friction(const CompliantContact& contact, const deck::Deck& deck, Lines& lines) {
+  for (const deck::Wall& wall : deck.walls) {
+    std::pair range(infinity, 0.0);
+    double stiffness = 0.0;
+    for (Index j = 0; j < contact.contact_count(); ++j) {
+      if (contact.wall(j).name != wall.name) continue;
+      range = {std::min(range.first, contact.wall(j).friction), std::max(range.second, contact.wall(j).friction)};
+      stiffness = (wall.law ? *wall.law : *deck.contact.law).along();
+    }
+    const auto [least, most] = range;
+    if (most <= 0.0) continue;
+    lines.add("friction",
+              fmt::format("{}: {}, along members, elastic up to it with {:.6g} by length", wall.name,
+                          least < most ? fmt::format("{:.6g} to {:.6g}", least, most) : fmt::format("{:.6g}", most),
+                          stiffness));
+    if (most > 1.0) lines.add("friction", wall.name + ": above 1 a load may have several states");
+  }
+}
+
 void add_friction(const Model& model, Lines& lines) {
   const deck::Deck& deck = model.whole_deck();
+  if (model.compliant() != nullptr) return add_elastic_friction(*model.compliant(), deck, lines);
   const MultiplierContact* const contact = model.contact();
   if (contact == nullptr || !contact->has_friction()) return;
   const double touching = 1e-9 * model.structure().length_scale();

@@ -35,6 +35,7 @@ void check_compliant_walls(const Model& model, const std::vector<PlainWall>& wal
   if (contact == nullptr) return;
   constexpr int parts = 64;          // of an element
   constexpr double of_force = 2e-3;  // what the rule is off by
+  constexpr double law_of_friction = 1e-9;
   const double touching = 1e-9 * model.structure().length_scale();
   for (Index j = 0; j < contact->contact_count(); ++j) {
     const CompliantContact::Wall& wall = contact->wall(j);
@@ -57,6 +58,17 @@ void check_compliant_walls(const Model& model, const std::vector<PlainWall>& wal
     const double of_parts = 2.0 * length * pressure_of(law, -contact->nearest(state, j).gap);
     findings.compare("compliant walls press by their laws", std::abs(contact->force(state, j) - force),
                      of_force * force + of_parts + mesh.length * pressure_of(law, touching), name);
+    if (const CompliantFriction* const friction = contact->elastic_friction(); friction != nullptr) {
+      double T = 0.0, beyond = 0.0;
+      for (const CompliantFriction::Point& point : friction->points(state)) {
+        if (point.pressed->contact != static_cast<std::size_t>(j)) continue;
+        T += std::abs(point.force);
+        beyond = std::max(beyond, std::abs(point.force) - point.most * (1.0 + law_of_friction));
+      }
+      findings.compare("friction is at most μ p", beyond, 0.0, name);
+      findings.compare("friction is at most μ p", T - wall.friction * force,
+                       wall.friction * (of_force * force + of_parts), name);
+    }
     if (state.active_set[static_cast<std::size_t>(j)] == 0)
       findings.compare("open contacts have no negative gap", -least, touching, name);
   }

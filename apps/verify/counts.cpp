@@ -295,7 +295,8 @@ namespace {
 
 // Friction has no energy whose second variation could be counted.
 bool has_friction(const PointAtHand& at) {
-  return std::any_of(at.touches.all.begin(), at.touches.all.end(),
+  return at.model.system().history() != nullptr ||
+         std::any_of(at.touches.all.begin(), at.touches.all.end(),
                      [](const Touch& touch) { return touch.friction.has_value(); });
 }
 

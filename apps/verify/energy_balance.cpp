@@ -125,6 +125,7 @@ Rate work_rate(const Model& model, const State& state, double longest) {
         return model.system().energy(moved);
       },
       longest);
+  if (model.compliant() != nullptr) return rate;  // walls and slips are part of Π
   if (const SlidingContact* const sliding = model.sliding()) {
     Linearization now;
     sliding->linearize(state, now);  // the rows of forces have the rates of gaps and places, with the other sign
@@ -195,6 +196,27 @@ Quadrature dissipated_by_points(const SlidingContact& contacts, const std::vecto
   return sum;
 }
 
+// Σ μ P |Δw| of the material points on compliant walls, P the mean of both ends of a step, and by how much another mean
+// may differ.
+Quadrature dissipated_at_points(const CompliantFriction& friction, const std::vector<const RecordPoint*>& points,
+                                Findings& findings) {
+  Quadrature sum;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const auto& from = friction.committed_points(points[i]->state);
+    const auto& to = friction.committed_points(points[i + 1]->state);
+    double against = 0.0;
+    for (std::size_t k = 0; k < to.size(); ++k) {
+      if (from[k].most == 0.0 && to[k].most == 0.0) continue;
+      const double way = to[k].slip - (from[k].most > 0.0 ? from[k].slip : 0.0);
+      sum += {.value = 0.5 * (from[k].most + to[k].most) * std::abs(way),
+              .error = 0.5 * std::abs(to[k].most - from[k].most) * std::abs(way)};
+      against = std::max(against, to[k].force * way);
+    }
+    findings.compare("friction opposes slip", against, 1e-9 * std::abs(sum.value));
+  }
+  return sum;
+}
+
 // −∫ T dw of all contacts along a piece, from what the states tell of T and w.
 Quadrature dissipated(const Model& model, const std::vector<const RecordPoint*>& points, const Samples& s) {
   if (model.sliding() != nullptr) return dissipated_by_points(*model.sliding(), points, s);
@@ -245,7 +267,9 @@ void check_energy_balance(const Model& model, const Record& record, Index branch
     work += integral(s, rate, lambda);
     for (std::size_t i = 0; i + 1 < s.size(); ++i)
       work.error += std::max(off[i], off[i + 1]) * std::abs(lambda[i + 1] - lambda[i]);
-    friction += dissipated(model, points, s);
+    friction += model.compliant() != nullptr
+                    ? dissipated_at_points(*model.compliant()->elastic_friction(), points, findings)
+                    : dissipated(model, points, s);
     const RecordPoint &from = record.points[piece.first], &to = record.points[piece.last];
     const auto total = [](const RecordPoint& at) {
       return std::accumulate(at.dissipation.begin(), at.dissipation.end(), 0.0);

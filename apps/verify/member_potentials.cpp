@@ -113,6 +113,16 @@ void add_compliant_walls(const Model& model, const State& state, std::vector<Pot
     potential.stiffness = K.selfadjointView<Eigen::Lower>();
     to.push_back(std::move(potential));
   }
+  const CompliantContact* const contact = model.compliant();
+  if (contact == nullptr || contact->elastic_friction() == nullptr) return;
+  for (CompliantFriction::OnElement& on : contact->elastic_friction()->on_elements(state)) {
+    Potential potential;
+    values_on_element(structure, on.element, state, rates, potential);
+    potential.energy = on.energy;
+    potential.gradient = std::move(on.gradient);
+    potential.stiffness = std::move(on.stiffness);
+    to.push_back(std::move(potential));
+  }
 }
 
 }  // namespace arcwall::verify

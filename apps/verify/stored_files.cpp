@@ -193,11 +193,13 @@ void check_compliant_rows(const std::vector<Row>& rows, std::size_t& next, const
   for (const ContactPoint& contact : contacts) {
     const std::string name =
         contact.label.wall + " at " + contact.label.member + ":" + round_trip(contact.label.fraction);
-    const bool is_there = next < rows.size() && rows[next].size() == 9;
+    const std::size_t cells = deck::has_friction(model.deck()) ? 13 : 9;
+    const bool is_there = next < rows.size() && rows[next].size() == cells;
     findings.require("contacts.csv matches the states", is_there, "no row of " + name);
     if (!is_there) return;
-    check_contact_cells(rows[next++], point, contact.label, contact.place, contact.force, contact.force, name, model,
-                        findings);
+    const Row& row = rows[next++];
+    check_contact_cells(row, point, contact.label, contact.place, contact.force, contact.force, name, model, findings);
+    if (cells == 13) check_friction_cells(row, name, contact, model, findings);
   }
 }
 

@@ -111,8 +111,11 @@ Index listed_contacts(const Touches& touches) {
 }
 
 Index slipping_contacts(const Touches& touches) {
+  const auto& compliant = touches.of_compliant_walls;
   return std::count_if(touches.all.begin(), touches.all.end(),
-                       [](const Touch& touch) { return touch.friction && touch.friction->slips; });
+                       [](const Touch& touch) { return touch.friction && touch.friction->slips; }) +
+         std::count_if(compliant.begin(), compliant.end(),
+                       [](const ContactPoint& contact) { return contact.friction && slips(contact.friction->mode); });
 }
 
 // `uncounted`: points whose unstable directions were not counted.

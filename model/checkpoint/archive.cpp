@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "contact/friction_layout.hpp"
+#include "contact/slip_layout.hpp"
 #include "model/checkpoint/parts.hpp"
 
 namespace arcwall {
@@ -14,10 +15,23 @@ namespace {
 
 constexpr const char* of_an_event = "event";
 constexpr const char* of_friction = "friction";
+constexpr const char* of_slips = "slips";
+
+bool has_only_statuses(const ActiveSet& active_set) {
+  return std::all_of(active_set.begin(), active_set.end(), [](std::uint8_t closed) { return closed <= 1; });
+}
+
+bool is_as_at_rest(const SlipLayout& layout, const SlipLayout* at_rest) {
+  return at_rest != nullptr && layout.points().size() == at_rest->points().size() &&
+         layout.dissipated().size() == at_rest->dissipated().size();
+}
 
 bool is_of(const System& system, const ActiveSet& active_set) {
   const ActiveSet open = system.open_active_set();
   if ((active_set.layout() == nullptr) != (open.layout() == nullptr)) return false;
+  if (const auto* slips = dynamic_cast<const SlipLayout*>(active_set.layout().get()))
+    return is_as_at_rest(*slips, dynamic_cast<const SlipLayout*>(open.layout().get())) &&
+           active_set.size() == open.size() && has_only_statuses(active_set);
   if (const auto* friction = dynamic_cast<const FrictionLayout*>(active_set.layout().get()))
     return friction->contacts().size() == open.contacts() && active_set.size() == open.size() &&
            std::all_of(active_set.begin(), active_set.end(), [](std::uint8_t closed) { return closed <= 1; });
@@ -97,7 +111,7 @@ Json ArchiveWriter::active_set(const ActiveSet& active_set) {
   return json;
 }
 
-// Of an event, and of contacts with friction, the first entry is a text.
+// Of an event, and of friction, the first entry is a text.
 Json ArchiveWriter::layout(const Layout& any) {
   ArchiveWriter inner(shared_);
   if (const EventSystem::Meaning* const meaning = EventSystem::meaning_of(any)) {
@@ -110,6 +124,13 @@ Json ArchiveWriter::layout(const Layout& any) {
     std::string what = of_friction;
     std::vector<FrictionLayout::Contact> contacts = friction->contacts();
     inner(what, contacts);
+    return std::move(inner.json_);
+  }
+  if (const auto* const slips = dynamic_cast<const SlipLayout*>(&any)) {
+    std::string what = of_slips;
+    std::vector<SlipLayout::Point> points = slips->points();
+    std::vector<double> dissipated = slips->dissipated();
+    inner(what, points, dissipated);
     return std::move(inner.json_);
   }
   const auto& layout = dynamic_cast<const SlidingContactLayout&>(any);
@@ -167,6 +188,16 @@ std::shared_ptr<const Layout> ArchiveReader::layout(const Json& json) {
     inner(what, contacts);
     require(inner.at_end());
     shared_->layouts.push_back(std::make_shared<const FrictionLayout>(std::move(contacts)));
+    return shared_->layouts.back();
+  }
+  if (!json.empty() && json[0] == of_slips) {
+    std::string what;
+    std::vector<SlipLayout::Point> points;
+    std::vector<double> dissipated;
+    ArchiveReader inner(json, shared_);
+    inner(what, points, dissipated);
+    require(inner.at_end());
+    shared_->layouts.push_back(std::make_shared<const SlipLayout>(std::move(points), std::move(dissipated)));
     return shared_->layouts.back();
   }
   if (!json.empty() && json[0].is_string()) return layout_of_event(json);

@@ -114,6 +114,8 @@ void law_keys(Keys& keys, WallLaw& law, std::string_view otherwise) {
           return of.give_up();
         }
         if (!has_table || of.lists()) of.number("stiffness", law.stiffness, unit::stress, positive, "");
+        of.number(optional("tangential_stiffness", "that at penetration 0"), law.tangential_stiffness, unit::stress,
+                  positive, "along the wall, of what friction holds; by length of axis");
         if (of.applies(!has_table || of.lists(), "depth", "belongs to a law with a stiffness", "remove it"))
           of.number(optional("depth"), law.depth, unit::length, positive, "");
         if (!of.applies(has_table, "interpolation", "belongs to a table of penetrations and pressures", "remove it"))
@@ -213,8 +215,6 @@ void rigid_contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
     const PointsOfContact found = points_of_contact(deck);
     keys.comment("points = " + in_quotes(text_of(contact_points_words, found.points)) + ": " + found.why);
   }
-  keys.word(optional("friction_at"), contact.friction_at, friction_at_words,
-            "`\"touch\"`: friction acts on the face; `\"axis\"`: on the axis");
   keys.number(optional("penalty", "none"), contact.penalty, unit::stress, positive,
               "force per length of axis and of penetration; > 0, required by `\"penalty\"` and `\"augmented\"`");
   keys.number(optional("gap_tolerance"), contact.gap_tolerance, unit::length, positive,
@@ -231,8 +231,10 @@ void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
             "`\"multiplier\"`: exact; `\"penalty\"`: springs of stiffness `penalty` in compression; `\"augmented\"`: "
             "exact, multiplier plus spring; `\"compliant\"`: pressure by `law`");
   const bool compliant = contact.is_compliant();
+  keys.word(optional("friction_at"), contact.friction_at, friction_at_words,
+            "`\"touch\"`: friction acts on the face; `\"axis\"`: on the axis");
   if (!compliant) rigid_contact_keys(keys, deck, contact);
-  for (const char* key : {"points", "friction_at", "penalty", "gap_tolerance"})
+  for (const char* key : {"points", "penalty", "gap_tolerance"})
     keys.applies(!compliant, key, "does not go with method \"compliant\", whose pressure is integrated along members",
                  "remove it");
   if (keys.applies(compliant || keys.lists(), "law", "belongs to method \"compliant\"",

@@ -139,8 +139,14 @@ struct WallLaw {
   std::vector<double> penetration{};  ///< increasing from 0 [length]
   std::vector<double> pressure{};     ///< as many, ≥ 0, from 0 [force/length]
   Interpolation interpolation = SpringLaw::Interpolation::linear;  ///< of the table
+  /// By which friction holds what sticks, by length of axis; empty: as stiff as the law at penetration 0
+  /// [force/length²].
+  std::optional<double> tangential_stiffness{};
 
   PressureLaw law() const;
+
+  /// The stiffness along the wall of what sticks.
+  double along() const { return tangential_stiffness ? *tangential_stiffness : law().at(0.0).stiffness; }
 
   bool operator==(const WallLaw&) const = default;
 };

@@ -636,7 +636,6 @@ TEST(CompliantWalls, RefuseWhatTheyAreNot) {
   expect_said("method = \"compliant\"", "method = \"multiplier\"", "belongs to method \"compliant\"");
   expect_said(law, law + "\npoints = \"moving\"", "does not go with method \"compliant\"");
   expect_said(law, law + "\npenalty = 1.0", "does not go with method \"compliant\"");
-  expect_said("[contact]", "friction = 0.3\n[contact]", "compliant walls have no friction");
   expect_said("[contact]", "interference = 0.3\n[contact]", "compliant walls have no interference");
   expect_said("z = -1e-4", "z = 1e-4", "is inside the wall at the start");
   expect_said("step = 0.1", "method = \"incremental\"\noutput_at = { lambda = [1.0] }",
