@@ -207,6 +207,11 @@ void check_law(Keys& keys, const Deck& deck, const Contact& contact) {
                 "add law = { stiffness = … }, the pressure by penetration");
 }
 
+void friction_at_key(Keys& keys, Contact& contact) {
+  keys.word(optional("friction_at"), contact.friction_at, friction_at_words,
+            "`\"touch\"`: friction acts on the face; `\"axis\"`: on the axis");
+}
+
 void rigid_contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
   keys.word(optional("points", "by theory"), contact.points, contact_points_words,
             "`\"moving\"`: positions of contact points are unknowns; `\"nodes\"`: contact at mesh nodes only");
@@ -215,6 +220,7 @@ void rigid_contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
     const PointsOfContact found = points_of_contact(deck);
     keys.comment("points = " + in_quotes(text_of(contact_points_words, found.points)) + ": " + found.why);
   }
+  friction_at_key(keys, contact);
   keys.number(optional("penalty", "none"), contact.penalty, unit::stress, positive,
               "force per length of axis and of penetration; > 0, required by `\"penalty\"` and `\"augmented\"`");
   keys.number(optional("gap_tolerance"), contact.gap_tolerance, unit::length, positive,
@@ -231,8 +237,7 @@ void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
             "`\"multiplier\"`: exact; `\"penalty\"`: springs of stiffness `penalty` in compression; `\"augmented\"`: "
             "exact, multiplier plus spring; `\"compliant\"`: pressure by `law`");
   const bool compliant = contact.is_compliant();
-  keys.word(optional("friction_at"), contact.friction_at, friction_at_words,
-            "`\"touch\"`: friction acts on the face; `\"axis\"`: on the axis");
+  if (compliant && (keys.reads() || has_friction(deck))) friction_at_key(keys, contact);
   if (!compliant) rigid_contact_keys(keys, deck, contact);
   for (const char* key : {"points", "penalty", "gap_tolerance"})
     keys.applies(!compliant, key, "does not go with method \"compliant\", whose pressure is integrated along members",
