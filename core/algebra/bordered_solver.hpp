@@ -54,9 +54,6 @@ class BorderedSolver {
   /// The factorization of K alone.
   const Factorization& inner() const { return *inner_; }
 
-  /// K + N, where the equations have an N and inner_is_regular().
-  const UnsymmetricFactors& unsymmetric() const { return unsymmetric_; }
-
   /// What makes such factorizations.
   const MakeFactorization& make() const { return make_; }
 
