@@ -85,7 +85,7 @@ class MultiplierContact final : public System, public FrictionalContact, public 
   bool is_rough(Index j) const { return candidate(j).friction() > 0.0; }
   bool is_rough(const ActiveSet&, Index j) const override { return is_rough(j); }
   double coefficient(const ActiveSet&, Index j) const override { return candidate(j).friction(); }
-  bool share_point(Index j, Index k) const override {
+  bool share_point(const ActiveSet&, Index j, Index k) const override {
     return is_rough(j) && is_rough(k) && candidate(j).point().unknowns() == candidate(k).point().unknowns();
   }
   ContactMode mode(const ActiveSet& active_set, Index j) const override;

@@ -145,8 +145,7 @@ SlidingContact::SlidingContact(const SlidingBody& body, std::vector<SlidingObsta
   setting->pinches = sliding::pinches_at_rest(*setting, SlidingState(rest));
   open_ = sliding::pinched_active_set(*setting, SlidingState(rest));
   setting_ = std::move(setting);
-  for (const SlidingObstacle& obstacle : setting_->obstacles)
-    for (const double friction : obstacle.frictions) has_friction_ = has_friction_ || friction > 0.0;
+  for (const SlidingObstacle& obstacle : setting_->obstacles) has_friction_ = has_friction_ || obstacle.is_rough();
 }
 
 SlidingContact::~SlidingContact() = default;
@@ -254,15 +253,17 @@ std::vector<Transition> SlidingContact::transitions(const State& state, const Di
   const sliding::Arrival arrival{.forward = forward, .tolerance = tolerance, .at_hand = &at_hand};
   std::vector<Transition> transitions = at_hand.transitions(*setting_, at, arrival);
   if (!has_friction_) return transitions;
+  std::string why;
   const auto is_unmodelled = [&](const Transition& transition) {
     if (transition.change == Transition::Change::unsupported) return false;
     const ActiveSet& ahead = transition.guess.get().active_set;
-    return ahead.layout() != nullptr && !sliding::friction_is_modelled(*setting_, ahead);
+    if (ahead.layout() != nullptr) why = sliding::why_friction_is_not_modelled(*setting_, ahead);
+    return !why.empty();
   };
   if (const auto first = std::find_if(transitions.begin(), transitions.end(), is_unmodelled);
       first != transitions.end()) {
     transitions.erase(first, transitions.end());
-    transitions.push_back(sliding::unsupported(sliding::friction_under_pressure()));
+    transitions.push_back(sliding::unsupported(std::move(why)));
   }
   return transitions;
 }
@@ -274,26 +275,37 @@ double SlidingContact::coefficient(const ActiveSet& active_set, Index j) const {
 }
 
 std::string SlidingContact::why_not_modelled(const ActiveSet& active_set, Index j) const {
-  const bool at_end = j >= static_cast<Index>(sliding_layout(active_set).points().size());
-  return at_end && is_rough(active_set, j) ? sliding::friction_at_end() : std::string();
+  return sliding::why_friction_is_not_modelled_at(*setting_, sliding_layout(active_set), static_cast<std::size_t>(j));
+}
+
+std::string SlidingContact::why_not_modelled(const ActiveSet& active_set) const {
+  return sliding::why_friction_is_not_modelled(*setting_, active_set);
 }
 
 std::string SlidingContact::why_friction_is_not_modelled(double toward) const {
-  const State begin = start(toward);
-  return sliding::friction_is_modelled(*setting_, begin.active_set) ? std::string()
-                                                                    : sliding::friction_under_pressure();
+  return why_not_modelled(start(toward).active_set);
+}
+
+// Ends at hollow corners.
+bool SlidingContact::share_point(const ActiveSet& active_set, Index j, Index k) const {
+  const SlidingContactLayout& layout = sliding_layout(active_set);
+  const auto points = static_cast<Index>(layout.points().size());
+  if (j < points || k < points || !is_rough(active_set, j) || !is_rough(active_set, k)) return false;
+  const sliding::Touch one = sliding::touch_of_contact(*setting_, layout, static_cast<std::size_t>(j));
+  const sliding::Touch other = sliding::touch_of_contact(*setting_, layout, static_cast<std::size_t>(k));
+  return one.strand == other.strand && one.position == other.position;
 }
 
 ContactMode SlidingContact::mode(const ActiveSet& active_set, Index j) const {
   const auto contact = static_cast<std::size_t>(j);
   if (!active_set[contact]) return ContactMode::open;
-  return rubs(active_set, contact) ? sliding_layout(active_set).points()[contact].rubbing.mode : ContactMode::closed;
+  return rubs(active_set, contact) ? sliding_layout(active_set).rubbing(contact).mode : ContactMode::closed;
 }
 
 std::vector<Index> SlidingContact::slipping(const ActiveSet& active_set) const {
   std::vector<Index> contacts;
-  for (std::size_t k = 0; k < sliding_layout(active_set).points().size(); ++k)
-    if (const auto point = static_cast<Index>(k); slips(mode(active_set, point))) contacts.push_back(point);
+  for (Index j = 0; j < static_cast<Index>(active_set.contacts()); ++j)
+    if (slips(mode(active_set, j))) contacts.push_back(j);
   return contacts;
 }
 
@@ -312,6 +324,18 @@ double SlidingContact::slip(const State& state, Index j) const {
   return rubs(state.active_set, static_cast<std::size_t>(j))
              ? sliding::slip_of(*setting_, SlidingState(state), static_cast<std::size_t>(j))
              : 0.0;
+}
+
+double SlidingContact::round_length(const ActiveSet& active_set, Index j) const {
+  const sliding::Touch touch =
+      sliding::touch_of_contact(*setting_, sliding_layout(active_set), static_cast<std::size_t>(j));
+  return obstacles()[touch.obstacle].surface->round_length();
+}
+
+// As many contacts are the same ones.
+std::optional<Index> SlidingContact::contact_before(const State& state, Index j, const State& before) const {
+  if (state.active_set.contacts() == before.active_set.contacts()) return j;
+  return sliding::nearest_rubbing(*setting_, SlidingState(state), static_cast<std::size_t>(j), SlidingState(before));
 }
 
 ContactPlace SlidingContact::place(const State& state, Index j) const {
@@ -342,7 +366,7 @@ std::optional<ModeOfContact> SlidingContact::beyond_friction_bound(const ActiveS
   if (bound < 0 || bound >= static_cast<Index>(bounds.size())) return std::nullopt;
   const auto* friction = sliding::as<sliding::FrictionBound>(*bounds[static_cast<std::size_t>(bound)]);
   if (friction == nullptr) return std::nullopt;
-  return ModeOfContact{.contact = static_cast<Index>(friction->point()), .mode = friction->beyond()};
+  return ModeOfContact{.contact = static_cast<Index>(friction->contact()), .mode = friction->beyond()};
 }
 
 State SlidingContact::with_modes(const State& state, std::span<const ModeOfContact> modes) const {
@@ -484,7 +508,7 @@ bool SlidingContact::rests_on_part() const {
 
 std::optional<State> SlidingContact::with_strands_come_to_lie(const State& state, double toward) const {
   auto lying = sliding::with_strands_come_to_lie(*setting_, SlidingState(state), toward);
-  if (lying && !sliding::friction_is_modelled(*setting_, lying->active_set)) lying.reset();
+  if (lying && !why_not_modelled(lying->active_set).empty()) lying.reset();
   return lying;
 }
 
@@ -494,21 +518,25 @@ std::string SlidingContact::why_not_lying(const State& state) const {
 
 State SlidingContact::adopted(const State& state) const {
   const SlidingState at(state);
-  const auto here = std::make_shared<SlidingContactLayout>(body(), body().mesh(at.mesh.elements_per_segment()),
-                                                           at.layout.points(), at.now.s, at.layout.lying());
+  const auto here =
+      std::make_shared<SlidingContactLayout>(body(), body().mesh(at.mesh.elements_per_segment()), at.layout.points(),
+                                             at.now.s, at.layout.lying(), at.layout.end_rubbings());
   return {.x = state.x, .lambda = state.lambda, .active_set = sliding::with_layout(state.active_set, here)};
 }
 
 State SlidingContact::gripped(const SlidingContact& free, const State& state) const {
   const SlidingState at(state);
-  const auto here = std::make_shared<SlidingContactLayout>(body(), body().mesh(at.mesh.elements_per_segment()),
-                                                           at.layout.points(), at.now.s, at.layout.lying());
   std::vector<std::size_t> number;  // of each contact, there
   for (std::size_t k = 0; k < at.layout.points().size(); ++k) number.push_back(k);
+  SlidingContactLayout::EndRubbings ends;
   for (const FreeEnd& end : setting_->free_ends) {
     const auto before = free.setting_->number_of_end({.strand = end.strand, .last = end.last}, end.obstacle);
     number.push_back(at.layout.points().size() + before.value());
+    ends.push_back(at.layout.rubbing(number.back()));
   }
+  const auto here =
+      std::make_shared<SlidingContactLayout>(body(), body().mesh(at.mesh.elements_per_segment()), at.layout.points(),
+                                             at.now.s, at.layout.lying(), std::move(ends));
   ActiveSet active_set(number.size(), 0, here);
   for (std::size_t j = 0; j < number.size(); ++j) active_set[j] = state.active_set[number[j]];
   State result{.x = {}, .lambda = state.lambda, .active_set = active_set.with_kinks_of(state.active_set)};
@@ -526,11 +554,11 @@ State SlidingContact::gripped(const SlidingContact& free, const State& state) co
       if (before[i].strand == tips[tip].strand && before[i].position == tips[tip].position)
         result.x[index.tip_moment(tip)] = state.x[at.index.tip_moment(i)];
   result.x.segment(index.moment(0), index.points) = state.x.segment(at.index.moment(0), index.points);
-  for (std::size_t k = 0; k < at.layout.points().size(); ++k) {
-    const auto T = index.friction(k);
+  for (std::size_t j = 0; j < number.size(); ++j) {
+    const auto T = index.friction(j);
     if (!T) continue;
-    result.x[*T] = state.x[*at.index.friction(k)];
-    result.x[*index.place(k)] = state.x[*at.index.place(k)];
+    result.x[*T] = state.x[*at.index.friction(number[j])];
+    result.x[*index.place(j)] = state.x[*at.index.place(number[j])];
   }
   result.x.tail(index.points) = state.x.tail(index.points);
   return result;
@@ -543,8 +571,8 @@ State SlidingContact::with_flat_parts_loaded(const State& state, double toward) 
 std::optional<State> SlidingContact::taken_over(const State& state) const {
   const SlidingState at(state);
   if (at.contacts() - at.layout.points().size() != setting_->free_ends.size()) return std::nullopt;
-  const auto here =
-      layout_of(at.mesh.elements_per_segment(), at.layout.points(), at.layout.origin(), at.layout.lying());
+  const auto here = layout_of(at.mesh.elements_per_segment(), at.layout.points(), at.layout.origin(), at.layout.lying(),
+                              at.layout.end_rubbings());
   if (!here || here->mesh().unknowns() != at.mesh.unknowns() || here->mesh().breakpoints() != at.mesh.breakpoints() ||
       here->bounds().size() != at.layout.bounds().size())
     return std::nullopt;
@@ -558,8 +586,9 @@ State SlidingContact::with_given_contacts(const State& open, const std::vector<G
 std::shared_ptr<const SlidingContactLayout> SlidingContact::layout_of(const ElementsPerSegment& elements,
                                                                       std::vector<SlidingContactLayout::Point> points,
                                                                       const Vector& origin,
-                                                                      SlidingContactLayout::Lying lying) const {
-  return sliding::checked_layout(*setting_, elements, std::move(points), origin, std::move(lying));
+                                                                      SlidingContactLayout::Lying lying,
+                                                                      SlidingContactLayout::EndRubbings ends) const {
+  return sliding::checked_layout(*setting_, elements, std::move(points), origin, std::move(lying), std::move(ends));
 }
 
 // --- what is told of contacts ---------------------------------------------------------------------------------------

@@ -72,13 +72,18 @@ class SlidingContact final : public System, public ContactQuery, public Friction
   bool is_rough(const ActiveSet& active_set, Index j) const override { return coefficient(active_set, j) > 0.0; }
   bool contacts_move() const override { return true; }
   std::string why_not_modelled(const ActiveSet& active_set, Index j) const override;
+  std::string why_not_modelled(const ActiveSet& active_set) const override;
   double coefficient(const ActiveSet& active_set, Index j) const override;
-  bool share_point(Index, Index) const override { return false; }
+  bool share_point(const ActiveSet& active_set, Index j, Index k) const override;
   ContactMode mode(const ActiveSet& active_set, Index j) const override;
   std::vector<Index> slipping(const ActiveSet& active_set) const override;
   double slip_rate(const State& state, const Direction& direction, Index j) const override;
   Row slip_gradient(const State& state, Index j) const override;
   double slip(const State& state, Index j) const override;
+  /// The length of a closed obstacle's round that contact j may touch, 0 of one that is not closed [length].
+  double round_length(const ActiveSet& active_set, Index j) const;
+
+  std::optional<Index> contact_before(const State& state, Index j, const State& before) const override;
   ContactPlace place(const State& state, Index j) const override;
   ContactPlace place_rates(const State& state, const Direction& direction, Index j) const override;
   std::optional<Index> force_index(const ActiveSet& active_set, Index j) const override;
@@ -137,7 +142,8 @@ class SlidingContact final : public System, public ContactQuery, public Friction
   /// The layout of so many elements and these points that began at these places; null if they do not belong together.
   std::shared_ptr<const SlidingContactLayout> layout_of(const ElementsPerSegment& elements,
                                                         std::vector<SlidingContactLayout::Point> points,
-                                                        const Vector& origin, SlidingContactLayout::Lying lying) const;
+                                                        const Vector& origin, SlidingContactLayout::Lying lying,
+                                                        SlidingContactLayout::EndRubbings ends) const;
 
   /// Where the body is deeper than this inside an obstacle between its contacts, deepest [length].
   struct Entered {

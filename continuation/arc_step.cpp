@@ -140,6 +140,27 @@ bool changes_by_friction(const TraceTools& tools, const ArcEnd& end) {
          is_friction_bound(tools.system, active_set, end.landing->guard);
 }
 
+// Where unknowns have changed and friction has to at once: the same place with what contacts do there.
+CornerPassed with_friction_settled(TraceTools& tools, Corner corner, CornerPassed passed) {
+  corner.at = passed.ahead();
+  corner.before = corner.at.count;
+  corner.signs = passed.signs;
+  corner.without_progress = passed.without_progress + 1;
+  CornerPassed settled = turn_friction_corner(tools, std::move(corner), std::nullopt, std::nullopt);
+  passed.events.insert(passed.events.end(), settled.events.begin(), settled.events.end());
+  passed.end = std::move(settled.end);
+  passed.without_progress = settled.without_progress;
+  if (passed.end) return passed;
+  passed.signs = std::move(settled.signs);
+  if (!passed.entered) {
+    passed.at = std::move(settled.at);
+    return passed;
+  }
+  passed.entered->begin = std::move(settled.at);
+  passed.entered->first.reset();
+  return passed;
+}
+
 // The change of contacts at an arc's end.
 CornerPassed pass_corner(TraceTools& tools, const TracerState& state, const ArcEnd& end,
                          const std::vector<int>& signs) {
@@ -154,8 +175,10 @@ CornerPassed pass_corner(TraceTools& tools, const TracerState& state, const ArcE
     return turn_friction_corner(tools, std::move(corner),
                                 end.landing ? std::optional(end.landing->guard) : std::nullopt, ended_slip(tools, end));
   const bool at_bound = end.landing->guard >= static_cast<Index>(end.point.state.active_set.size());
-  return at_bound ? pass_bound(tools, std::move(corner), end.landing->guard)
-                  : turn_corner(tools, std::move(corner), end.landing->guard, state.visited);
+  if (!at_bound) return turn_corner(tools, std::move(corner), end.landing->guard, state.visited);
+  CornerPassed passed = pass_bound(tools, corner, end.landing->guard);
+  if (passed.end || !must_change_behind(tools, passed.ahead())) return passed;
+  return with_friction_settled(tools, std::move(corner), std::move(passed));
 }
 
 // What is known just behind a change of contacts.

@@ -52,6 +52,11 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
     return begun;
   }
   PathPoint at = path_point(tools.system, metric, std::move(result), forward);
+  if (tools.system.has_friction())
+    if (std::string why = tools.system.friction()->why_not_modelled(at.state.active_set); !why.empty()) {
+      begun.end = {.reason = EndReason::not_modelled, .detail = std::move(why)};
+      return begun;
+    }
   decide_count(tools, at);
   std::vector<Event> events;
   const ActiveSet& active_set = at.state.active_set;

@@ -38,11 +38,14 @@ class FrictionalContact {
   /// Returns why friction of contact j is not modelled where it closes; empty if it is.
   virtual std::string why_not_modelled(const ActiveSet&, Index /*j*/) const { return {}; }
 
+  /// Returns why friction is not modelled on an active set; empty if it is.
+  virtual std::string why_not_modelled(const ActiveSet&) const { return {}; }
+
   /// Returns its coefficient of friction μ [-].
   virtual double coefficient(const ActiveSet& active_set, Index j) const = 0;
 
-  /// Returns true if two contacts with friction are of one point of the structure.
-  virtual bool share_point(Index j, Index k) const = 0;
+  /// Returns true if two contacts of an active set have friction and are of one point of the structure.
+  virtual bool share_point(const ActiveSet& active_set, Index j, Index k) const = 0;
 
   /// Returns what a contact does on an active set.
   virtual ContactMode mode(const ActiveSet& active_set, Index j) const = 0;
@@ -59,6 +62,10 @@ class FrictionalContact {
 
   /// Returns how far a closed contact with friction has slipped along the obstacle since it closed [length].
   virtual double slip(const State& state, Index j) const = 0;
+
+  /// Returns the contact of an earlier state from which contact j of a state has come, where active sets have other
+  /// contacts; empty if none is known.
+  virtual std::optional<Index> contact_before(const State&, Index j, const State& /*before*/) const { return j; }
 
   /// Returns where a closed contact with friction is, and the rates along a direction.
   virtual ContactPlace place(const State& state, Index j) const = 0;

@@ -566,8 +566,15 @@ std::vector<SlidingObstacle> sliding_obstacles(const deck::Deck& deck, const Sli
       for (Index strand = 0; strand < structure.strands(); ++strand) {
         const bool keeps = kept_off(wall, 2.0 * structure.half_height(strand)) == off;
         obstacle.strands.push_back(concerned(strand) && keeps ? 1 : 0);
-        const auto [member, fraction] = structure.label({.strand = strand, .s = 0.5 * structure.length(strand)});
-        if (deck::has_friction(deck)) obstacle.frictions.push_back(deck::friction_of(deck, wall, member, 0.5));
+        if (!deck::has_friction(deck)) continue;
+        const auto friction_at = [&](double s) {
+          const auto [member, fraction] = structure.label({.strand = strand, .s = s});
+          return deck::friction_of(deck, wall, member, fraction);
+        };
+        const double length = structure.length(strand);
+        const std::string member = structure.label({.strand = strand, .s = 0.5 * length}).first;
+        obstacle.frictions.push_back(deck::friction_of(deck, wall, member, 0.5));
+        obstacle.end_frictions.push_back({friction_at(0.0), friction_at(length)});
       }
       obstacles.push_back(std::move(obstacle));
     }

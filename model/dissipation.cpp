@@ -42,6 +42,15 @@ double dissipated(const RecordSlip& from, const RecordSlip& to, double arc_lengt
   return std::max(sum, 0.0);
 }
 
+void add_dissipated_before(const FrictionalContact& contacts, const State& event, const State& first, double unit,
+                           std::vector<RecordSlip>& slips) {
+  for (RecordSlip& slip : slips)
+    if (const auto before = contacts.contact_before(first, slip.contact, event)) {
+      const double way = contacts.slip(first, slip.contact) - contacts.slip(event, *before);
+      slip.before = std::max(-slip.force * unit * way, 0.0);
+    }
+}
+
 Index slipping_contacts(const RecordPoint& point) {
   return std::count_if(point.forces.begin(), point.forces.end(),
                        [](const RecordForce& contact) { return contact.friction && slips(contact.friction->mode); });

@@ -15,6 +15,11 @@ std::vector<RecordSlip> slips_along(const FrictionalContact* contacts, const Sta
 /// w, Λ and s by the arc length (docs/theory.md, section 18.4). ≥ 0.
 double dissipated(const RecordSlip& from, const RecordSlip& to, double arc_length);
 
+/// What contacts that slip at the first point of an active set, `slips` there, have dissipated since an event at which
+/// they had other unknowns. `unit`: that of lengths.
+void add_dissipated_before(const FrictionalContact& contacts, const State& event, const State& first, double unit,
+                           std::vector<RecordSlip>& slips);
+
 /// Closed contacts that slip.
 Index slipping_contacts(const RecordPoint& point);
 

@@ -168,22 +168,36 @@ std::vector<double> dissipated_elastically(const Model& model, const State& stat
 
 }  // namespace
 
-// Empty without friction. `point`: where the way ends.
-std::vector<double> Recorder::dissipation_until(const PathTangent& arrives, const PathPoint& point) const {
+// The slips just behind a point of the path, with what they have dissipated since an event at which unknowns changed.
+std::vector<RecordSlip> Recorder::slips_behind(const State& event, const PathPoint& behind) const {
+  const double unit = model_->frame().factor();
+  std::vector<RecordSlip> slips = slips_along(model_->friction(), behind.state, behind.tangent, unit);
+  if (event.active_set != behind.state.active_set)
+    add_dissipated_before(*model_->friction(), event, behind.state, unit, slips);
+  return slips;
+}
+
+// Empty without friction.
+std::vector<double> Recorder::dissipation_until(const PathTangent& arrives, const PathPoint& to) const {
   if (model_ == nullptr || !record_.has_friction) return {};
-  if (model_->system().history() != nullptr) return dissipated_elastically(*model_, point.state);
+  if (model_->system().history() != nullptr) return dissipated_elastically(*model_, to.state);
   if (record_.branches[branch_].points == 0) return dissipation_at_start();
   const RecordPoint& before = record_.points.back();
   std::vector<double> sums = before.dissipation;
-  const std::vector<deck::Wall>& walls = model_->deck().walls;
+  const auto wall_of = [&](const State& state, Index contact) {
+    const std::vector<deck::Wall>& walls = model_->deck().walls;
+    return deck::find(walls, model_->contacts()->contact(state, contact).label.wall) - walls.data();
+  };
   const auto slips = slips_along(model_->friction(), arrives.state, arrives.tangent, model_->frame().factor());
   for (const RecordSlip& from : before.slips)
-    for (const RecordSlip& to : slips) {
-      if (from.contact != to.contact) continue;
-      const std::string name = model_->contacts()->contact(arrives.state, to.contact).label.wall;
-      const auto wall = deck::find(walls, name) - walls.data();
-      sums[static_cast<std::size_t>(wall)] += dissipated(from, to, point.arc - before.arc);
+    for (const RecordSlip& at : slips) {
+      if (from.contact != at.contact) continue;
+      const auto wall = wall_of(arrives.state, at.contact);
+      sums[static_cast<std::size_t>(wall)] += from.before + dissipated(from, at, to.arc - before.arc);
     }
+  if (to.state.active_set == arrives.state.active_set) return sums;
+  for (const RecordSlip& behind : slips_behind(arrives.state, to))
+    sums[static_cast<std::size_t>(wall_of(to.state, behind.contact))] += behind.before;
   return sums;
 }
 
@@ -206,9 +220,7 @@ void Recorder::add(const Arc& arc, const PathPoint& leaves) {
        .residual = to.residual,
        .forces = forces_at(model_, to.state),
        .dissipation = dissipation,
-       .slips = dissipation.empty()
-                    ? std::vector<RecordSlip>()
-                    : slips_along(model_->friction(), leaves.state, leaves.tangent, model_->frame().factor()),
+       .slips = dissipation.empty() ? std::vector<RecordSlip>() : slips_behind(to.state, leaves),
        .rates = rates_along(model_, arrives.state, arrives.tangent),
        .rates_after = has_kink ? rates_along(model_, leaves.state, leaves.tangent) : std::nullopt,
        .state = to.state});

@@ -42,7 +42,8 @@ class Recorder {
   RecordEvent recorded(const Event& event, const State& at) const;
   std::vector<double> values(const State& state, const std::vector<double>& dissipation) const;
   std::vector<double> dissipation_at_start() const;
-  std::vector<double> dissipation_until(const PathTangent& arrives, const PathPoint& point) const;
+  std::vector<double> dissipation_until(const PathTangent& arrives, const PathPoint& to) const;
+  std::vector<RecordSlip> slips_behind(const State& event, const PathPoint& behind) const;
   void add_event(RecordEvent event);
 
   const Model* model_;  // null for a system of a program

@@ -47,11 +47,11 @@ OPENING = re.compile(r"^(?:Where|What|Of) (?!.*\?$)")
 # Words that a page may have, code and tables included.
 BUDGETS = {
     "README.md": 1910, "CHANGELOG.md": 700, "docs/tutorial.md": 1500, "docs/gallery.md": 1540, "docs/contributing.md": 900,
-    "docs/explanation/contact.md": 1580, "docs/explanation/loading.md": 900, "docs/explanation/trust.md": 1300,
+    "docs/explanation/contact.md": 1590, "docs/explanation/loading.md": 900, "docs/explanation/trust.md": 1300,
     "docs/reference/deck.md": 5450, "docs/reference/outputs.md": 3000, "docs/reference/errors.md": 2000,
     "docs/reference/command-line.md": 700, "docs/reference/glossary.md": 1000, "docs/reference/python.md": 1900,
     "docs/reference/library.md": 900, "docs/reference/sweep.md": 1100, "docs/architecture.md": 1500, "docs/decisions.md": 2450,
-    "docs/theory.md": 15650, "docs/validation.md": 4200, "docs/paper.md": 1400, "docs/performance.md": 1900,
+    "docs/theory.md": 15790, "docs/validation.md": 4200, "docs/paper.md": 1400, "docs/performance.md": 1900,
 }
 HOW_TO = 500
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "apps/verify/differences.hpp"
@@ -150,46 +152,42 @@ Rate work_rate(const Model& model, const State& state, double longest) {
   return rate;
 }
 
-// The point of a layout that another layout has: its contacts may be more or fewer.
-std::optional<Index> same_point(const State& from, Index point, const State& to) {
-  const SlidingContactLayout &here = sliding_layout(from.active_set), &there = sliding_layout(to.active_set);
-  const auto k = static_cast<std::size_t>(point);
-  const double s = mesh_state_of(from).s[point];
-  std::optional<Index> nearest;
-  for (Index other = 0; other < there.mesh().breakpoints(); ++other) {
-    if (there.points()[static_cast<std::size_t>(other)].obstacle != here.points()[k].obstacle ||
-        there.mesh().breakpoint(other).first != here.mesh().breakpoint(point).first)
-      continue;
-    const auto off = [&](Index candidate) { return std::abs(mesh_state_of(to).s[candidate] - s); };
-    if (!nearest || off(other) < off(*nearest)) nearest = other;
-  }
-  return nearest;
-}
-
-// −∫ T (dw − Λ ds) of the points that move along members.
-Quadrature dissipated_by_points(const SlidingContact& contacts, const std::vector<const RecordPoint*>& points,
-                                const Samples& arc) {
+// −∫ T (dw − Λ ds) of the contacts that move along members, and of the ends of these. Where unknowns change at a point
+// of the path, the other side of that has more contacts or fewer: those that have come from one share its force.
+Quadrature dissipated_while_moving(const SlidingContact& contacts, const std::vector<const RecordPoint*>& points,
+                                   const Samples& arc) {
   Quadrature sum;
-  const State& first = points.front()->state;
-  for (Index k = 0; k < sliding_layout(first.active_set).mesh().breakpoints(); ++k) {
-    const std::size_t obstacle = sliding_layout(first.active_set).points()[static_cast<std::size_t>(k)].obstacle;
-    const double round = contacts.obstacles()[obstacle].surface->round_length();
+  const State& within = points[points.size() / 2]->state;
+  std::map<std::pair<const RecordPoint*, Index>, int> shared;
+  const auto contact_at = [&](Index j, const RecordPoint* point) {
+    return contacts.contact_before(within, j, point->state);
+  };
+  const auto count = static_cast<Index>(within.active_set.contacts());
+  const auto rubs_in = [](const State& state, Index j) { return rubs(state.active_set, static_cast<std::size_t>(j)); };
+  for (Index j = 0; j < count; ++j)
+    for (const RecordPoint* point : points)
+      if (const auto there = contact_at(j, point); there && rubs_in(point->state, *there)) ++shared[{point, *there}];
+  for (Index j = 0; j < count; ++j) {
+    const double round = contacts.round_length(within.active_set, j);
+    const auto rubs_at = [&](const RecordPoint* point) {
+      const auto there = contact_at(j, point);
+      return there && rubs_in(point->state, *there);
+    };
+    if (std::none_of(points.begin(), points.end(), rubs_at)) continue;
     Samples against, against_rolled, w, s;
-    bool rubs_at_all = false;
     for (const RecordPoint* point : points) {
       const State& state = point->state;
-      const auto j = same_point(first, k, state);
-      if (!j) break;
-      ContactPlace place = contacts.place(state, *j);
+      const auto there = contact_at(j, point);
+      if (!there) break;
+      ContactPlace place = contacts.place(state, *there);
       if (round > 0.0 && !w.empty()) place.w += round * std::round((w.back() - place.w) / round);
-      const double T = contacts.friction_force(state, *j);
-      rubs_at_all = rubs_at_all || rubs(state.active_set, static_cast<std::size_t>(*j));
+      const double T = contacts.friction_force(state, *there) / std::max(shared[{point, *there}], 1);
       against.push_back(-T);
       against_rolled.push_back(T * place.stretch);
       w.push_back(place.w);
       s.push_back(place.s);
     }
-    if (!rubs_at_all || w.size() != points.size()) continue;
+    if (w.size() != points.size()) continue;
     sum += integral(arc, against, w);
     sum += integral(arc, against_rolled, s);
   }
@@ -219,7 +217,7 @@ Quadrature dissipated_at_points(const CompliantFriction& friction, const std::ve
 
 // −∫ T dw of all contacts along a piece, from what the states tell of T and w.
 Quadrature dissipated(const Model& model, const std::vector<const RecordPoint*>& points, const Samples& s) {
-  if (model.sliding() != nullptr) return dissipated_by_points(*model.sliding(), points, s);
+  if (model.sliding() != nullptr) return dissipated_while_moving(*model.sliding(), points, s);
   const MultiplierContact& contacts = *model.contact();
   Quadrature sum;
   for (Index j = 0; j < contacts.contact_count(); ++j) {

@@ -192,9 +192,9 @@ void part_pinching_force(Touch& first, Touch& other) {
   first.two_sided = other.two_sided = other.closed = true;
 }
 
-// Of a closed point with friction; the deck gives its coefficient.
+// Of a closed contact with friction; the deck gives its coefficient.
 FrictionAtTouch friction_at(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const Touch& touch,
-                            const SlidingNode& node, std::size_t point, double force) {
+                            const SlidingNode& node, std::size_t contact, double force) {
   const bool on_axis = at->model.deck().contact.friction_at == deck::FrictionAt::axis;
   const double half = at->body.half_height(node.strand);
   const auto place = [=, &wall, function = touch.gap](const Vector& u) {
@@ -203,7 +203,7 @@ FrictionAtTouch friction_at(const std::shared_ptr<const Sliding>& at, const Plai
   };
   const double sign = wall.has_outline() || wall.deck().side == Side::below ? 1.0 : -1.0;
   const Vec2 tangent = sign * unit_tangent(wall.slope_angle(place(touch.gap.at)));
-  const ContactPoint told = at->model.contacts()->contact(at->state, static_cast<Index>(point));
+  const ContactPoint told = at->model.contacts()->contact(at->state, static_cast<Index>(contact));
   FrictionAtTouch friction{
       .along = touch.gap,
       .force = force,
@@ -237,7 +237,7 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
   const auto& points = at->on.points();
   const auto& pinched = at->on.pinched_points();
   Index rubbing = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) rubbing += rubs(state.active_set, k) ? 1 : 0;
+  for (std::size_t j = 0; j < state.active_set.contacts(); ++j) rubbing += rubs(state.active_set, j) ? 1 : 0;
   const Index moments = state.x.size() - 2 * at->mesh.breakpoints() - rubbing;  // behind friction forces
   Index friction = moments - rubbing;
   const auto& tips = at->on.pressed_tips();
@@ -275,7 +275,10 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
     const auto& [strand, last, obstacle] = ends[i];
     const SlidingNode node{.strand = strand, .position = last ? at->mesh.nodes(strand) - 1 : 0};
     const PlainWall& wall = wall_of_obstacle(*at, walls, obstacle);
-    const Touch& touch = add(wall, node, state.active_set[points.size() + i] != 0);
+    const std::size_t contact = points.size() + i;
+    const Touch& touch = add(wall, node, state.active_set[contact] != 0);
+    if (rubs(state.active_set, contact))
+      touches.all.back().friction = friction_at(at, wall, touch, node, contact, state.x[friction++]);
     if (touch.closed && goes_on(*at, wall, strand, last))
       touches.tangencies.push_back(tangency_at_joint(at, wall, touch, node, last));
   }

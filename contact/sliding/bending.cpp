@@ -85,7 +85,7 @@ namespace {
 // The side that bends nearest to the obstacle: friction makes thrust and, on faces, curvature jump.
 SlidingMesh::At nearest_side(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   using enum SlidingMesh::At;
-  if (!at.rubs(point)) return free_side(at.layout, point);
+  if (!at.rubs(point) || at.layout.lies_beside(point)) return free_side(at.layout, point);
   const Touch touch = touch_of_contact(setting, at.layout, point);
   const auto gap = [&](SlidingMesh::At side) {
     return gap_of_curvatures(setting, at, touch, at.mesh.strain(static_cast<Index>(point), side, at.now));

@@ -63,7 +63,7 @@ ContactPoint at_pinch(const SlidingSetting& setting, const SlidingState& at, std
 
 void add_friction(const SlidingSetting& setting, const SlidingState& at, std::size_t j, ContactPoint& contact) {
   const NodeFunction place = touched_place(setting, touch_of_contact(setting, at.layout, j), at, 0.0);
-  contact.friction = FrictionOfContact{.mode = at.layout.points()[j].rubbing.mode,
+  contact.friction = FrictionOfContact{.mode = at.layout.rubbing(j).mode,
                                        .force = at.state.x[*at.index.friction(j)],
                                        .coefficient = friction_coefficient(setting, at.layout, j),
                                        .slip = slip_of(setting, at, j),

@@ -18,8 +18,8 @@ using NeutralSpan = SlidingContactLayout::NeutralSpan;
 
 // σ − w.
 NodeFunction off_held_place(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
-                            std::size_t point) {
-  const double w = at.state.x[*at.index.place(point)];
+                            std::size_t contact) {
+  const double w = at.state.x[*at.index.place(contact)];
   NodeFunction place = touched_place(setting, touch, at, w);
   place.value -= w;
   return place;
@@ -60,10 +60,10 @@ void for_each_constraint(const SlidingSetting& setting, const SlidingState& at, 
   for (std::size_t i = 0; i < on.pressed_tips().size(); ++i)
     visit_tilt(touch_of_tip(setting, on.pressed_tips()[i]), at.index.tip_moment(i));
   if (at.index.rubbing > 0)
-    for (std::size_t k = 0; k < on.points().size(); ++k) {
-      if (!at.rubs(k)) continue;
-      const Touch touch = touch_of_contact(setting, on, k);
-      visit([&, k] { return off_held_place(setting, at, touch, k); }, touch, *at.index.friction(k));
+    for (std::size_t j = 0; j < at.contacts(); ++j) {
+      if (!at.rubs(j)) continue;
+      const Touch touch = touch_of_contact(setting, on, j);
+      visit([&, j] { return off_held_place(setting, at, touch, j); }, touch, *at.index.friction(j));
     }
   for (std::size_t k = 0; k < on.points().size(); ++k)
     if (!on.is_pinched(k)) visit_tilt(touch_of_contact(setting, on, k), at.index.moment(static_cast<Index>(k)));
@@ -282,8 +282,8 @@ WallAction wall_action(const SlidingSetting& setting, const SlidingState& at, co
 namespace {
 
 void add_friction_to_residual(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F) {
-  for (std::size_t k = 0; k < at.layout.points().size(); ++k)
-    if (const auto w = at.index.place(k)) F[*w] = law_of_friction(setting, at, k).value;
+  for (std::size_t j = 0; j < at.contacts(); ++j)
+    if (const auto w = at.index.place(j)) F[*w] = law_of_friction(setting, at, j).value;
 }
 
 // The border of places that friction holds: their columns in the rows of T, and the laws of friction.
@@ -292,21 +292,22 @@ void add_friction(const SlidingSetting& setting, const SlidingState& at, Lineari
   out.rolling.clear();
   out.slip_senses.resize(0);
   if (at.index.rubbing == 0) return;
-  for (std::size_t k = 0; k < at.layout.points().size(); ++k) {
-    const auto w = at.index.place(k);
+  for (std::size_t j = 0; j < at.contacts(); ++j) {
+    const auto w = at.index.place(j);
     if (!w) continue;
-    const LawOfFriction law = law_of_friction(setting, at, k);
+    const LawOfFriction law = law_of_friction(setting, at, j);
     out.F[*w] = law.value;
     out.F_lambda[*w] = law.row.dlambda;
     out.C.row(*w - n) = law.row.dx.transpose();
-    out.B(*at.index.friction(k), *w - n) = 1.0;
-    const ContactMode mode = at.layout.points()[k].rubbing.mode;
+    out.B(*at.index.friction(j), *w - n) = 1.0;
+    const ContactMode mode = at.layout.rubbing(j).mode;
     if (slips(mode) && out.slip_senses.size() == 0) out.slip_senses = Vector::Zero(at.index.border());
     if (slips(mode)) out.slip_senses[*w - n] = slip_sense(mode);
-    const auto point = static_cast<Index>(k);
+    if (!moves_along_body(at, j)) continue;
+    const auto point = static_cast<Index>(j);
     out.rolling.push_back({.place = *w - n,
                            .coordinate = at.index.coordinate(point) - n,
-                           .stretch = body_sense(setting, at, k) * mean_stretch(setting, at, k)});
+                           .stretch = body_sense(setting, at, j) * mean_stretch(setting, at, j)});
   }
 }
 

@@ -7,8 +7,13 @@
 namespace arcwall {
 
 SlidingContactLayout::SlidingContactLayout(const SlidingBody& body, std::shared_ptr<const SlidingMesh> mesh,
-                                           std::vector<Point> points, const Vector& s, Lying lying)
-    : body_(&body), mesh_(std::move(mesh)), points_(std::move(points)), lying_(std::move(lying)), origin_(s) {
+                                           std::vector<Point> points, const Vector& s, Lying lying, EndRubbings ends)
+    : body_(&body),
+      mesh_(std::move(mesh)),
+      points_(std::move(points)),
+      lying_(std::move(lying)),
+      end_rubbings_(std::move(ends)),
+      origin_(s) {
   for (std::size_t k = 0; k < points_.size(); ++k)
     if (points_[k].is_pinched()) pinched_points_.push_back(k);
   Index first_point = 0;

@@ -24,8 +24,8 @@ class SlidingContactLayout final : public SlidingLayout {
     pressed,  ///< on the wall; the nodes between are pressed on it
   };
 
-  /// What a closed point does along an obstacle with friction, and where it began to: the anchor of a stick, (18.10) of
-  /// docs/theory.md. `open`: the contact has no friction, or is open.
+  /// What a closed contact does along an obstacle with friction, and where it began to: the anchor of a stick, (18.10)
+  /// of docs/theory.md. `open`: the contact has no friction, or is open.
   struct Rubbing {
     ContactMode mode = ContactMode::open;
     double w = 0.0;        ///< place on the obstacle [length]
@@ -99,10 +99,13 @@ class SlidingContactLayout final : public SlidingLayout {
   /// empty: no strand is.
   using Lying = std::vector<std::optional<std::size_t>>;
 
+  /// Of the free ends in their order. May be empty: none rubs.
+  using EndRubbings = std::vector<Rubbing>;
+
   /// `s`: the material coordinates of the points where the layout begins. A mesh that is too fine already there is not
   /// made coarser.
   SlidingContactLayout(const SlidingBody& body, std::shared_ptr<const SlidingMesh> mesh, std::vector<Point> points,
-                       const Vector& s, Lying lying = {});
+                       const Vector& s, Lying lying = {}, EndRubbings ends = {});
   ~SlidingContactLayout() override;
 
   const SlidingMesh& mesh() const override { return *mesh_; }
@@ -124,6 +127,15 @@ class SlidingContactLayout final : public SlidingLayout {
   const std::vector<Segment>& segments() const { return segments_; }
 
   const Lying& lying() const { return lying_; }
+  const EndRubbings& end_rubbings() const { return end_rubbings_; }
+
+  /// Of a contact of active sets with this layout: a tracked point or, behind those, a free end.
+  const Rubbing& rubbing(std::size_t contact) const {
+    static const Rubbing none;
+    if (contact < points_.size()) return points_[contact].rubbing;
+    const std::size_t end = contact - points_.size();
+    return end < end_rubbings_.size() ? end_rubbings_[end] : none;
+  }
 
   /// The obstacle on which all of a strand is pressed.
   std::optional<std::size_t> lies_on(Index strand) const {
@@ -196,6 +208,7 @@ class SlidingContactLayout final : public SlidingLayout {
   std::vector<NeutralSpan> neutral_spans_;
   std::vector<std::size_t> pinched_points_;
   Lying lying_;
+  EndRubbings end_rubbings_;
   std::vector<Segment> segments_;
   Vector origin_;
   std::vector<std::unique_ptr<const sliding::ValidityBound>> bounds_;
@@ -206,10 +219,9 @@ inline const SlidingContactLayout& sliding_layout(const ActiveSet& active_set) {
   return static_cast<const SlidingContactLayout&>(*active_set.layout());
 }
 
-/// Whether a contact of such an active set is a closed point with friction.
+/// Whether a contact of such an active set is closed and has friction.
 inline bool rubs(const ActiveSet& active_set, std::size_t contact) {
-  const auto& points = sliding_layout(active_set).points();
-  return contact < points.size() && active_set[contact] != 0 && points[contact].rubbing.rubs();
+  return active_set[contact] != 0 && sliding_layout(active_set).rubbing(contact).rubs();
 }
 
 }  // namespace arcwall

@@ -224,15 +224,15 @@ std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elem
   return k;
 }
 
-void LayoutEdit::insert_near_end(const StrandEnd& end, double place, std::size_t obstacle,
-                                 SlidingContactLayout::Span outer, SlidingContactLayout::Span inner,
-                                 int elements_outside, double force) {
+std::size_t LayoutEdit::insert_near_end(const StrandEnd& end, double place, std::size_t obstacle,
+                                        SlidingContactLayout::Span outer, SlidingContactLayout::Span inner,
+                                        int elements_outside, double force) {
   const auto [strand, last] = end;
   const int rest = elements[static_cast<std::size_t>(strand)][part_at(strand, place).place].elements;
   const SlidingContactLayout::Point point{
       .obstacle = obstacle, .behind = last ? outer : inner, .before = last ? inner : outer};
-  insert({.point = point, .strand = strand, .s = place, .closed = true, .force = force}, last ? rest : elements_outside,
-         last ? elements_outside : rest);
+  return insert({.point = point, .strand = strand, .s = place, .closed = true, .force = force},
+                last ? rest : elements_outside, last ? elements_outside : rest);
 }
 
 // As many as they have together.
@@ -311,6 +311,9 @@ LayoutEdit edit_of(const SlidingBody& body, const SlidingState& at) {
   for (std::size_t j = edit.points.size(); j < at.contacts(); ++j) {
     edit.ends_closed.push_back(at.is_closed(j));
     edit.end_forces.push_back(at.force(j));
+    edit.end_rubbings.push_back(at.layout.rubbing(j));
+    edit.end_frictions.push_back(at.rubs(j) ? at.state.x[*at.index.friction(j)] : 0.0);
+    edit.ends_held.push_back(at.rubs(j) ? at.state.x[*at.index.place(j)] : 0.0);
   }
   return edit;
 }
@@ -520,7 +523,7 @@ std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit) {
   give_middles(parts);
   hand_loads_on(edit, parts);
   return std::make_shared<SlidingContactLayout>(edit.body, edit.body.mesh(edit.elements), edit.points, edit.s,
-                                                edit.lying);
+                                                edit.lying, edit.end_rubbings);
 }
 
 }  // namespace arcwall::sliding

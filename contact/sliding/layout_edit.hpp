@@ -27,6 +27,8 @@ struct LayoutEdit {
   /// Of the free ends, in the order of SlidingSetting::free_ends.
   std::vector<std::uint8_t> ends_closed{};
   std::vector<double> end_forces{};
+  SlidingContactLayout::EndRubbings end_rubbings{};
+  std::vector<double> end_frictions{}, ends_held{};  ///< as those of the points
 
   /// Elements of the segment before a point, and of that behind it.
   int& elements_before(std::size_t point) { return segment(point); }
@@ -55,9 +57,10 @@ struct LayoutEdit {
   std::size_t insert(const Entry& entry, int elements_before, int elements_behind);
 
   /// Inserts the closed edge of a zone near an end of a strand: `outer` is the span up to the end, with so many
-  /// elements.
-  void insert_near_end(const StrandEnd& end, double place, std::size_t obstacle, SlidingContactLayout::Span outer,
-                       SlidingContactLayout::Span inner, int elements_outside, double force = 0.0);
+  /// elements. Returns which point it is.
+  std::size_t insert_near_end(const StrandEnd& end, double place, std::size_t obstacle,
+                              SlidingContactLayout::Span outer, SlidingContactLayout::Span inner, int elements_outside,
+                              double force = 0.0);
 
   /// The segments before and behind a point become one with so many elements.
   void erase(std::size_t point, int of_both);

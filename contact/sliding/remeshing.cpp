@@ -32,11 +32,11 @@ State mapped_onto(const SlidingSetting& setting, const SlidingState& at, const L
   out.x.head(index.nodes) = at.mesh.transferred(at.now, on->mesh(), edit.s);
   for (std::size_t j = 0; j < active_set.size(); ++j)
     if (const auto p = index.force(j)) out.x[*p] = j < points ? edit.forces[j] : edit.end_forces[j - points];
-  for (std::size_t k = 0; k < points; ++k) {
-    const auto T = index.friction(k);
+  for (std::size_t j = 0; j < points + ends; ++j) {
+    const auto T = index.friction(j);
     if (!T) continue;
-    out.x[*T] = edit.frictions[k];
-    out.x[*index.place(k)] = edit.held[k];
+    out.x[*T] = j < points ? edit.frictions[j] : edit.end_frictions[j - points];
+    out.x[*index.place(j)] = j < points ? edit.held[j] : edit.ends_held[j - points];
   }
   out.x.tail(edit.s.size()) = edit.s;
   return out;
@@ -112,7 +112,8 @@ Transition unsupported(std::string what) {
 std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting& setting,
                                                            const ElementsPerSegment& elements,
                                                            std::vector<Point> points, const Vector& origin,
-                                                           SlidingContactLayout::Lying lying) {
+                                                           SlidingContactLayout::Lying lying,
+                                                           SlidingContactLayout::EndRubbings ends) {
   const SlidingBody& body = setting.body;
   if (static_cast<Index>(elements.size()) != body.strands() || static_cast<Index>(points.size()) != origin.size())
     return nullptr;
@@ -143,13 +144,15 @@ std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting&
   };
   if (k != origin.size() || std::any_of(points.begin(), points.end(), unknown)) return nullptr;
   if (!lying.empty() && static_cast<Index>(lying.size()) != body.strands()) return nullptr;
+  if (!ends.empty() && ends.size() != setting.free_ends.size()) return nullptr;
   for (std::size_t strand = 0; strand < lying.size(); ++strand) {
     if (!lying[strand]) continue;
     const bool has_points = std::any_of(elements[strand].begin(), elements[strand].end() - 1,
                                         [](const MeshSegment& segment) { return !segment.ends_at_load(); });
     if (has_points || *lying[strand] >= setting.obstacles.size()) return nullptr;
   }
-  return std::make_shared<SlidingContactLayout>(body, body.mesh(elements), std::move(points), origin, std::move(lying));
+  return std::make_shared<SlidingContactLayout>(body, body.mesh(elements), std::move(points), origin, std::move(lying),
+                                                std::move(ends));
 }
 
 ActiveSet with_layout(const ActiveSet& active_set, std::shared_ptr<const SlidingContactLayout> on) {
@@ -172,7 +175,7 @@ ActiveSet canonical_active_set(const SlidingSetting& setting, const SlidingState
   if (!changed) return at.state.active_set;
   return with_layout(at.state.active_set,
                      std::make_shared<SlidingContactLayout>(setting.body, at.layout.shared_mesh(), std::move(points),
-                                                            at.now.s, at.layout.lying()));
+                                                            at.now.s, at.layout.lying(), at.layout.end_rubbings()));
 }
 
 }  // namespace arcwall::sliding

@@ -49,7 +49,8 @@ Transition unsupported(std::string what);
 std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting& setting,
                                                            const ElementsPerSegment& elements,
                                                            std::vector<SlidingContactLayout::Point> points,
-                                                           const Vector& origin, SlidingContactLayout::Lying lying);
+                                                           const Vector& origin, SlidingContactLayout::Lying lying,
+                                                           SlidingContactLayout::EndRubbings ends);
 
 /// The active set with another layout, whose contacts have the same status.
 ActiveSet with_layout(const ActiveSet& active_set, std::shared_ptr<const SlidingContactLayout> on);

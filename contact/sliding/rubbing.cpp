@@ -19,9 +19,14 @@ double offset_along_normal(const SlidingSetting& setting, const Touch& touch, co
   return std::cos(axis.angle) >= 0.0 ? offset : -offset;
 }
 
-double held_place(const SlidingState& at, std::size_t point) { return at.state.x[*at.index.place(point)]; }
+double held_place(const SlidingState& at, std::size_t contact) { return at.state.x[*at.index.place(contact)]; }
 
-// How a point has moved along the body since its anchor.
+double coordinate(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {
+  const Touch touch = touch_of_contact(setting, at.layout, contact);
+  return at.mesh.coordinate(touch.strand, touch.position, at.now.s);
+}
+
+// How a contact has moved along the body since its anchor.
 struct Roll {
   double sense, stretch, way;  // of the body along the obstacle; the mean since the anchor; of the coordinate
 
@@ -29,62 +34,92 @@ struct Roll {
   double length() const { return sense * stretch * way; }
 };
 
-Roll roll_of(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  const Rubbing& anchor = at.layout.points()[point].rubbing;
-  return {.sense = body_sense(setting, at, point),
-          .stretch = 0.5 * (anchor.stretch + mean_stretch(setting, at, point)),
-          .way = at.s(static_cast<Index>(point)) - anchor.s};
+Roll roll_of(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {
+  if (!moves_along_body(at, contact)) return {.sense = 1.0, .stretch = 0.0, .way = 0.0};
+  const Rubbing& anchor = at.layout.rubbing(contact);
+  return {.sense = body_sense(setting, at, contact),
+          .stretch = 0.5 * (anchor.stretch + mean_stretch(setting, at, contact)),
+          .way = coordinate(setting, at, contact) - anchor.s};
 }
 
-// What a point does from here on.
-Rubbing begun_here(const SlidingSetting& setting, const SlidingState& at, std::size_t point, ContactMode mode) {
-  const ContactPlace place = place_of_rubbing(setting, at, point);
+// What a contact does from here on.
+Rubbing begun_here(const SlidingSetting& setting, const SlidingState& at, std::size_t contact, ContactMode mode) {
+  const ContactPlace place = place_of_rubbing(setting, at, contact);
   return {.mode = mode,
           .w = place.w,
-          .s = at.s(static_cast<Index>(point)),
+          .s = coordinate(setting, at, contact),
           .stretch = place.stretch,
-          .slipped = at.rubs(point) ? slip_of(setting, at, point) : 0.0};
+          .slipped = at.rubs(contact) ? slip_of(setting, at, contact) : 0.0};
+}
+
+// Whether supports leave an end that touches one direction of motion at most: then they bear the friction.
+bool supports_bear_friction(const SlidingSetting& setting, const SlidingContactLayout& layout, const Touch& touch) {
+  const NodeUnknowns unknowns = layout.mesh().node_unknowns(touch.strand, touch.position);
+  const bool has_lever =
+      setting.obstacles[touch.obstacle].rubbing_offset(setting.body.half_height(touch.strand)) != 0.0;
+  const bool slides = unknowns[0] >= 0 && unknowns[1] >= 0;
+  return !slides && !(has_lever && unknowns[2] >= 0);
 }
 
 }  // namespace
 
 double friction_coefficient(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact) {
   const Touch touch = touch_of_contact(setting, layout, contact);
-  return setting.obstacles[touch.obstacle].friction(touch.strand);
+  const SlidingObstacle& obstacle = setting.obstacles[touch.obstacle];
+  if (contact < layout.points().size()) return obstacle.friction(touch.strand);
+  const double coefficient = obstacle.friction_at_end(touch.strand, touch.position > 0);
+  return coefficient > 0.0 && supports_bear_friction(setting, layout, touch) ? 0.0 : coefficient;
 }
 
-bool friction_is_modelled(const SlidingSetting& setting, const ActiveSet& active_set) {
+std::string why_friction_is_not_modelled_at(const SlidingSetting& setting, const SlidingContactLayout& layout,
+                                            std::size_t contact) {
+  if (contact < layout.points().size() || friction_coefficient(setting, layout, contact) == 0.0) return {};
+  const FreeEnd& end = setting.free_ends[contact - layout.points().size()];
+  if (setting.body.is_tip(end.strand, end.last) && end.joined.empty()) return {};
+  return "friction at a joint or a support is not modelled with moving contact points";
+}
+
+std::string why_friction_is_not_modelled(const SlidingSetting& setting, const ActiveSet& active_set) {
   const SlidingContactLayout& layout = sliding_layout(active_set);
   for (std::size_t j = 0; j < active_set.contacts(); ++j) {
     if (active_set[j] == 0 || friction_coefficient(setting, layout, j) == 0.0) continue;
-    if (!rubs(active_set, j) || layout.lies_beside(j)) return false;
+    if (j < layout.points().size() && layout.lies_beside(j))
+      return "friction along a member that lies on a wall is not modelled with moving contact points";
+    if (std::string why = why_friction_is_not_modelled_at(setting, layout, j); !why.empty()) return why;
+    if (!rubs(active_set, j))
+      return "how friction goes on where contact changes like this is not modelled with moving contact points";
   }
   for (std::size_t strand = 0; strand < layout.lying().size(); ++strand)
     if (const auto obstacle = layout.lying()[strand])
-      if (setting.obstacles[*obstacle].friction(static_cast<Index>(strand)) > 0.0) return false;
-  return true;
+      if (setting.obstacles[*obstacle].friction(static_cast<Index>(strand)) > 0.0)
+        return "friction along a member that lies on a wall is not modelled with moving contact points";
+  return {};
 }
 
-std::string friction_under_pressure() {
-  return "friction along a member that lies on a wall is not modelled with moving contact points";
-}
-
-std::string friction_at_end() { return "friction at an end of a member is not modelled with moving contact points"; }
-
-double body_sense(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  const Touch touch = touch_of_contact(setting, at.layout, point);
+double body_sense(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {
+  const Touch touch = touch_of_contact(setting, at.layout, contact);
   const Obstacle& surface = *setting.obstacles[touch.obstacle].surface;
   const AxisPlace axis = touch.axis(at);
   return sign_of(surface.side()) * travel(surface, face(touch.offset, axis), axis.angle, at.now.lambda);
 }
 
 // Λ_f = Λ − o κ of either side.
-double mean_stretch(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  const Touch touch = touch_of_contact(setting, at.layout, point);
+double mean_stretch(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {
+  const Touch touch = touch_of_contact(setting, at.layout, contact);
   const double offset = offset_along_normal(setting, touch, touch.axis(at));
+  if (!moves_along_body(at, contact)) {
+    const bool last = touch.position > 0;
+    const AxisStrain inside = at.mesh.end_strain(touch.strand, last, at.now);
+    const double s = last ? setting.body.length(touch.strand) : 0.0;
+    if (setting.body.is_on_plane(touch.strand, last)) return inside.stretch - offset * inside.curvature;
+    const double stretch = 1.0 + setting.body.free_strain(touch.strand, at.now.lambda).value;
+    const double curvature = setting.body.natural_curvature({.strand = touch.strand, .s = s}, at.now.lambda);
+    return 0.5 * (inside.stretch + stretch - offset * (inside.curvature + curvature));
+  }
+  const auto point = static_cast<Index>(contact);
   double sum = 0.0;
   for (const auto side : {SlidingMesh::At::before, SlidingMesh::At::behind}) {
-    const AxisStrain strain = at.mesh.strain(static_cast<Index>(point), side, at.now);
+    const AxisStrain strain = at.mesh.strain(point, side, at.now);
     sum += strain.stretch - offset * strain.curvature;
   }
   return 0.5 * sum;
@@ -92,7 +127,7 @@ double mean_stretch(const SlidingSetting& setting, const SlidingState& at, std::
 
 namespace {
 
-// Its derivatives.
+// Its derivatives, at a tracked point.
 Row mean_stretch_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const Touch touch = touch_of_contact(setting, at.layout, point);
   const double offset = offset_along_normal(setting, touch, touch.axis(at));
@@ -108,79 +143,109 @@ Row mean_stretch_gradient(const SlidingSetting& setting, const SlidingState& at,
 
 }  // namespace
 
-ContactPlace place_of_rubbing(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+ContactPlace place_of_rubbing(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {
   const auto touched = [&] {
-    return touched_place(setting, touch_of_contact(setting, at.layout, point), at, 0.0).value;
+    return touched_place(setting, touch_of_contact(setting, at.layout, contact), at, 0.0).value;
   };
-  const double w = at.rubs(point) ? held_place(at, point) : touched();
+  const double w = at.rubs(contact) ? held_place(at, contact) : touched();
   return {.w = w,
-          .s = body_sense(setting, at, point) * at.s(static_cast<Index>(point)),
-          .stretch = mean_stretch(setting, at, point)};
+          .s = body_sense(setting, at, contact) * coordinate(setting, at, contact),
+          .stretch = mean_stretch(setting, at, contact)};
 }
 
 ContactPlace rates_of_rubbing(const SlidingSetting& setting, const SlidingState& at, const Direction& direction,
-                              std::size_t point) {
-  if (!at.rubs(point)) return {};
-  return {.w = direction.dx[*at.index.place(point)],
-          .s = body_sense(setting, at, point) * direction.dx[at.index.coordinate(static_cast<Index>(point))],
-          .stretch = apply(mean_stretch_gradient(setting, at, point), direction)};
+                              std::size_t contact) {
+  if (!at.rubs(contact)) return {};
+  const double w_rate = direction.dx[*at.index.place(contact)];
+  if (!moves_along_body(at, contact)) return {.w = w_rate};
+  return {.w = w_rate,
+          .s = body_sense(setting, at, contact) * direction.dx[at.index.coordinate(static_cast<Index>(contact))],
+          .stretch = apply(mean_stretch_gradient(setting, at, contact), direction)};
 }
 
-Row slip_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+Row slip_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {
   Row row = at.no_slope();
-  row.dx[*at.index.place(point)] = 1.0;
-  row.dx[at.index.coordinate(static_cast<Index>(point))] =
-      -body_sense(setting, at, point) * mean_stretch(setting, at, point);
+  row.dx[*at.index.place(contact)] = 1.0;
+  if (moves_along_body(at, contact))
+    row.dx[at.index.coordinate(static_cast<Index>(contact))] =
+        -body_sense(setting, at, contact) * mean_stretch(setting, at, contact);
   return row;
 }
 
-double slip_of(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  const Rubbing& anchor = at.layout.points()[point].rubbing;
+double slip_of(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {
+  const Rubbing& anchor = at.layout.rubbing(contact);
   if (!slips(anchor.mode)) return anchor.slipped;
-  return anchor.slipped + held_place(at, point) - anchor.w - roll_of(setting, at, point).length();
+  return anchor.slipped + held_place(at, contact) - anchor.w - roll_of(setting, at, contact).length();
 }
 
-LawOfFriction law_of_friction(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  const Rubbing& anchor = at.layout.points()[point].rubbing;
-  const Index w = *at.index.place(point);
+LawOfFriction law_of_friction(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {
+  const Rubbing& anchor = at.layout.rubbing(contact);
+  const Index w = *at.index.place(contact);
   LawOfFriction law{.row = at.no_slope()};
   if (slips(anchor.mode)) {
-    const Index T = *at.index.friction(point), p = *at.index.force(point);
-    const double ratio = slip_sense(anchor.mode) * friction_coefficient(setting, at.layout, point);
+    const Index T = *at.index.friction(contact), p = *at.index.force(contact);
+    const double ratio = slip_sense(anchor.mode) * friction_coefficient(setting, at.layout, contact);
     law.value = at.state.x[T] + ratio * at.state.x[p];
     law.row.dx[T] = 1.0;
     law.row.dx[p] = ratio;
     return law;
   }
-  const Roll roll = roll_of(setting, at, point);
-  const Row by_stretch = mean_stretch_gradient(setting, at, point);
+  const Roll roll = roll_of(setting, at, contact);
   law.value = at.state.x[w] - anchor.w - roll.length();
-  law.row.dx = -0.5 * roll.sense * roll.way * by_stretch.dx;
-  law.row.dlambda = -0.5 * roll.sense * roll.way * by_stretch.dlambda;
+  if (moves_along_body(at, contact)) {
+    const Row by_stretch = mean_stretch_gradient(setting, at, contact);
+    law.row.dx = -0.5 * roll.sense * roll.way * by_stretch.dx;
+    law.row.dlambda = -0.5 * roll.sense * roll.way * by_stretch.dlambda;
+    law.row.dx[at.index.coordinate(static_cast<Index>(contact))] -= roll.sense * roll.stretch;
+  }
   law.row.dx[w] += 1.0;
-  law.row.dx[at.index.coordinate(static_cast<Index>(point))] -= roll.sense * roll.stretch;
   return law;
 }
 
-Rubbing anchored_anew(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  return begun_here(setting, at, point, at.layout.points()[point].rubbing.mode);
+std::optional<Index> nearest_rubbing(const SlidingSetting& setting, const SlidingState& at, std::size_t contact,
+                                     const SlidingState& other) {
+  const auto place = [&](const SlidingState& in, const Touch& touch) {
+    return in.mesh.coordinate(touch.strand, touch.position, in.now.s);
+  };
+  const Touch here = touch_of_contact(setting, at.layout, contact);
+  std::optional<Index> nearest;
+  double least = infinity;
+  for (std::size_t j = 0; j < other.contacts(); ++j) {
+    if (!other.rubs(j)) continue;
+    const Touch there = touch_of_contact(setting, other.layout, j);
+    if (there.strand != here.strand || there.obstacle != here.obstacle) continue;
+    const double off = std::abs(place(other, there) - place(at, here));
+    if (off >= least) continue;
+    least = off;
+    nearest = static_cast<Index>(j);
+  }
+  return nearest;
+}
+
+Rubbing anchored_anew(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {
+  return begun_here(setting, at, contact, at.layout.rubbing(contact).mode);
 }
 
 State with_modes(const SlidingSetting& setting, const SlidingState& at, std::span<const ModeOfContact> modes) {
   const ActiveSet& before = at.state.active_set;
   std::vector<SlidingContactLayout::Point> points = at.layout.points();
-  for (std::size_t k = 0; k < points.size(); ++k)
-    if (!at.is_closed(k)) points[k].rubbing = {};
+  SlidingContactLayout::EndRubbings ends;
+  for (std::size_t j = points.size(); j < at.contacts(); ++j) ends.push_back(at.layout.rubbing(j));
+  const auto rubbing_of = [&](std::size_t j) -> Rubbing& {
+    return j < points.size() ? points[j].rubbing : ends[j - points.size()];
+  };
+  for (std::size_t j = 0; j < at.contacts(); ++j)
+    if (!at.is_closed(j)) rubbing_of(j) = {};
   for (const auto& [contact, mode] : modes) {
-    const auto k = static_cast<std::size_t>(contact);
-    if (k >= points.size()) continue;
-    if (mode == ContactMode::open || friction_coefficient(setting, at.layout, k) == 0.0)
-      points[k].rubbing = {};
-    else if (mode != points[k].rubbing.mode)
-      points[k].rubbing = begun_here(setting, at, k, mode);
+    const auto j = static_cast<std::size_t>(contact);
+    Rubbing& rubbing = rubbing_of(j);
+    if (mode == ContactMode::open || friction_coefficient(setting, at.layout, j) == 0.0)
+      rubbing = {};
+    else if (mode != rubbing.mode)
+      rubbing = begun_here(setting, at, j, mode);
   }
   const auto layout = std::make_shared<const SlidingContactLayout>(
-      setting.body, at.layout.shared_mesh(), std::move(points), at.layout.origin(), at.layout.lying());
+      setting.body, at.layout.shared_mesh(), std::move(points), at.layout.origin(), at.layout.lying(), std::move(ends));
   ActiveSet changed(before.contacts(), 0, layout);
   for (std::size_t j = 0; j < before.contacts(); ++j) changed[j] = before[j];
   for (const auto& [contact, mode] : modes)
@@ -189,8 +254,8 @@ State with_modes(const SlidingSetting& setting, const SlidingState& at, std::spa
              .lambda = at.state.lambda,
              .active_set = changed.with_kinks_of(before)};
   const SlidingUnknowns index(next.active_set);
-  for (std::size_t k = 0; k < layout->points().size(); ++k)
-    if (const auto w = index.place(k); w && !at.rubs(k)) next.x[*w] = layout->points()[k].rubbing.w;
+  for (std::size_t j = 0; j < at.contacts(); ++j)
+    if (const auto w = index.place(j); w && !at.rubs(j)) next.x[*w] = layout->rubbing(j).w;
   return next;
 }
 

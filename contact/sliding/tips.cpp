@@ -13,6 +13,7 @@
 #include "contact/sliding/bounds/tail.hpp"
 #include "contact/sliding/bounds/tip_presses.hpp"
 #include "contact/sliding/clamps.hpp"
+#include "contact/sliding/handed_friction.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
@@ -75,8 +76,12 @@ Transition with_points_inside(const SlidingSetting& setting, const SlidingState&
     edit.ends_closed[end] = static_cast<std::uint8_t>(stays);
     edit.end_forces[end] = stays ? std::max(tails[i] == Tail::arch ? force : load, 0.0) : 0.0;
     const Span span = span_of(tails[i]);
-    edit.insert_near_end({strand, last}, s, obstacle, span, Span::free, span == Span::pressed ? 2 : 1,
-                         force - edit.end_forces[end]);
+    const std::size_t point = edit.insert_near_end({strand, last}, s, obstacle, span, Span::free,
+                                                   span == Span::pressed ? 2 : 1, force - edit.end_forces[end]);
+    const double kept = force > 0.0 ? edit.end_forces[end] / force : 0.0;
+    friction_of_point_at(setting, at, at.layout.points().size() + end, s).give_to_point(point, 1.0 - kept, edit);
+    edit.end_frictions[end] *= kept;
+    if (!stays) edit.end_rubbings[end] = {};
   }
   const auto on = layout_of(edit);
   const ClosedTip& first = tips.front();
@@ -300,6 +305,14 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
     const FreeEnd there = found->seen_from(of);
     if (auto why = what_hinders(setting, at, there, inner)) return {unsupported(std::move(*why))};
     ends.push_back(end);
+    HandedFriction friction = friction_of_end(setting, at, point, there);
+    if (at.rubs(at.layout.points().size() + end)) {
+      const HandedFriction before{
+          .rubbing = edit.end_rubbings[end], .force = edit.end_frictions[end], .held = edit.ends_held[end]};
+      const bool do_the_same = friction.rubbing.mode == before.rubbing.mode;
+      friction = merged(before, friction, do_the_same ? before.rubbing.mode : ContactMode::sticks, 0.0);
+    }
+    friction.give_to_end(end, 1.0, edit);
     edit.end_forces[end] += edit.forces[point];
     edit.ends_closed[end] = 1;
     if (inner == Span::pressed) {

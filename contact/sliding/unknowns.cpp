@@ -13,7 +13,7 @@ SlidingUnknowns::SlidingUnknowns(const ActiveSet& active_set) : active_set_(&act
   pinched = static_cast<Index>(layout.pinched_points().size());
   tips = static_cast<Index>(layout.pressed_tips().size());
   points = static_cast<Index>(layout.points().size());
-  for (std::size_t k = 0; k < layout.points().size(); ++k) rubbing += rubs(active_set, k) ? 1 : 0;
+  for (std::size_t j = 0; j < active_set.contacts(); ++j) rubbing += rubs(active_set, j) ? 1 : 0;
 }
 
 std::optional<Index> SlidingUnknowns::rank(std::size_t contact) const {

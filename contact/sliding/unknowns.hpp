@@ -17,9 +17,9 @@ namespace arcwall {
 ///     p   `neutral`  forces that hold the middles of neutral spans            multipliers, with −c = 0
 ///     τ   `pinched`  forces along the axis at pinched points                  multipliers, with −c = 0
 ///     m   `tips`     moments that hold the tangency at pressed tips           multipliers, with −t = 0
-///     T   `rubbing`  forces of friction, of closed points in their order      multipliers, with w − σ = 0
+///     T   `rubbing`  forces of friction, of closed contacts in their order    multipliers, with w − σ = 0
 ///     m   `points`   moments that hold the tangency at the tracked points     multipliers, with −t = 0
-///     w   `rubbing`  places on the obstacle that hold the closed points       the border, with the law of friction
+///     w   `rubbing`  places on the obstacle that hold these contacts          the border, with the law of friction
 ///     s   `points`   material coordinates of the tracked points               the border
 ///
 /// All but w and s are unknowns of K. Equations stand in the same order; that of s_k says that the body may slide at
@@ -35,7 +35,7 @@ class SlidingUnknowns {
   Index neutral = 0;  ///< neutral spans
   Index pinched = 0;  ///< pinched points
   Index tips = 0;     ///< pressed tips
-  Index rubbing = 0;  ///< closed points with friction
+  Index rubbing = 0;  ///< closed contacts with friction
   Index points = 0;   ///< tracked points
 
   Index multipliers() const { return closed + pressed + neutral + pinched + tips + rubbing + points; }

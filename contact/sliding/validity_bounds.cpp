@@ -123,11 +123,11 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
       add_if<TailBound>(has_tail(body, on, strand, last), bounds, strand, last,
                         on.point_at_end(strand, last).value_or(0));
     }
-  for (std::size_t k = 0; k < on.points().size(); ++k) {
-    if (on.points()[k].rubbing.mode != ContactMode::sticks) continue;
+  for (std::size_t j = 0; j < on.points().size() + on.end_rubbings().size(); ++j) {
+    if (on.rubbing(j).mode != ContactMode::sticks) continue;
     for (const ContactMode beyond : {ContactMode::slips_backward, ContactMode::slips_forward})
-      add_if<FrictionBound>(true, bounds, k, beyond);
-    add_if<RollingBound>(true, bounds, k);
+      add_if<FrictionBound>(true, bounds, j, beyond);
+    add_if<RollingBound>(j < on.points().size(), bounds, j);
   }
   return bounds;
 }

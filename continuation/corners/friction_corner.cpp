@@ -306,7 +306,8 @@ bool would_hold_twice(const FrictionalContact& friction, const ActiveSet& active
   };
   for (const BoundContact& choice : choices)
     for (Index j = 0; j < static_cast<Index>(active_set.contacts()); ++j)
-      if (choice.touches && j != choice.contact && friction.share_point(j, choice.contact) && touches(j)) return true;
+      if (choice.touches && j != choice.contact && friction.share_point(active_set, j, choice.contact) && touches(j))
+        return true;
   return false;
 }
 
@@ -411,6 +412,18 @@ std::optional<Index> slowest_slip(const FrictionalContact& friction, const PathP
   for (const Index j : friction.slipping(at.state.active_set))
     if (!slowest || rate(j) < rate(*slowest)) slowest = j;
   return slowest;
+}
+
+bool must_change_behind(const TraceTools& tools, const PathPoint& at) {
+  if (!tools.system.has_friction()) return false;
+  const FrictionalContact& friction = *tools.system.friction();
+  const ActiveSet& active_set = at.state.active_set;
+  const auto slowest = slowest_slip(friction, at);
+  if (slowest && friction.slip_rate(at.state, at.tangent, *slowest) < 0.0) return true;
+  for (auto guard = static_cast<Index>(active_set.contacts()); guard < at.guards.size(); ++guard)
+    if (at.guards[guard] < -tools.options.guard_tolerance && is_friction_bound(tools.system, active_set, guard))
+      return true;
+  return false;
 }
 
 bool may_change_at_start(const TraceTools& tools, const PathPoint& at) {

@@ -19,6 +19,10 @@ std::optional<Index> slowest_slip(const FrictionalContact& friction, const PathP
 CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optional<Index> landed,
                                   std::optional<Index> ended);
 
+/// Whether contacts with friction change at once at the first point behind a change of what is in contact: one slips
+/// against its sense there, or sticks beyond its bound.
+bool must_change_behind(const TraceTools& tools, const PathPoint& at);
+
 /// Whether a branch begins at a point where contacts with friction may change: some touch without force, or slip, as
 /// after a stage that went on in another sense.
 bool may_change_at_start(const TraceTools& tools, const PathPoint& at);

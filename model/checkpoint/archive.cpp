@@ -141,7 +141,8 @@ Json ArchiveWriter::layout(const Layout& any) {
   std::vector<SlidingContactLayout::Point> points = layout.points();
   Vector origin = layout.origin();
   SlidingContactLayout::Lying lying = layout.lying();
-  inner(stage, cut, points, origin, lying);
+  SlidingContactLayout::EndRubbings ends = layout.end_rubbings();
+  inner(stage, cut, points, origin, lying, ends);
   return std::move(inner.json_);
 }
 
@@ -206,11 +207,12 @@ std::shared_ptr<const Layout> ArchiveReader::layout(const Json& json) {
   std::vector<SlidingContactLayout::Point> points;
   Vector origin;
   SlidingContactLayout::Lying lying;
+  SlidingContactLayout::EndRubbings ends;
   ArchiveReader inner(json, shared_);
-  inner(stage, cut, points, origin, lying);
+  inner(stage, cut, points, origin, lying, ends);
   require(inner.at_end() && stage < static_cast<Index>(model().sliding.size()));
-  shared_->layouts.push_back(
-      model().sliding[static_cast<std::size_t>(stage)]->layout_of(cut, std::move(points), origin, std::move(lying)));
+  shared_->layouts.push_back(model().sliding[static_cast<std::size_t>(stage)]->layout_of(
+      cut, std::move(points), origin, std::move(lying), std::move(ends)));
   require(shared_->layouts.back() != nullptr);
   return shared_->layouts.back();
 }

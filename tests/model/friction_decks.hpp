@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -185,6 +186,76 @@ component = "force-z"
 )",
                      drag.empty() ? "clamp = [\"x\", \"rotation\"]" : "clamp = [\"rotation\"]", friction) +
          drag + stages;
+}
+
+// A pinned column, EI = 0.175 and EA = 210, under the load λ between rough walls at ±0.15. A deviation of 1e-9 makes it
+// buckle upwards.
+inline std::string column(double friction, const std::string& stages, const std::string& more = "") {
+  return fmt::format(R"(
+[material.m]
+E = 210.0
+[section.s]
+shape = "general"
+A = 1.0
+I = 8.333333333333333e-4
+[point]
+left = [0.0, 0.0]
+right = [2.0, 0.0]
+[member.column]
+from = "left"
+to = "right"
+theory = "elastica"
+material = "m"
+section = "s"
+elements = 20
+imperfection = [{{ shape = "sine", amplitude = 1e-9, waves = 1 }}]
+[support]
+left = ["x", "z"]
+right = ["z"]
+[contact]
+points = "moving"
+[[load]]
+at = "right"
+force = [-1.0, 0.0]
+[[wall]]
+name = "upper"
+side = "above"
+contact_surface = "axis"
+profile = {{ type = "flat", z = 0.15 }}
+friction = {0}
+[[wall]]
+name = "lower"
+side = "below"
+contact_surface = "axis"
+profile = {{ type = "flat", z = -0.15 }}
+friction = {0}
+[[monitor]]
+name = "shortening"
+at = "right"
+component = "x"
+sign = -1
+[[monitor]]
+name = "p"
+wall = "upper"
+component = "force-z"
+sign = -1
+)",
+                     friction) +
+         more + stages;
+}
+
+inline double lost_until(const RecordPoint& point) {
+  return std::accumulate(point.dissipation.begin(), point.dissipation.end(), 0.0);
+}
+
+// Of a stage, where λ has a value.
+inline const RecordPoint& point_at(const Session& session, Index stage, double lambda) {
+  const RecordPoint* nearest = nullptr;
+  for (const RecordPoint& point : session.points())
+    if (session.record().stage_number(point.branch) == stage &&
+        (nearest == nullptr || std::abs(point.lambda - lambda) < std::abs(nearest->lambda - lambda)))
+      nearest = &point;
+  return *nearest;
 }
 
 /// A run that is killed after so many points and taken up again is the whole run to the last bit.

@@ -2,22 +2,29 @@
 
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/rubbing.hpp"
+#include "contact/sliding/touch.hpp"
 
 namespace arcwall::sliding {
 
 // A slip forward has T = −μ p.
 double FrictionBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  if (!at.rubs(point_)) return 1.0;
-  const double most = friction_coefficient(setting, at.layout, point_) * at.force(point_);
-  return (most + slip_sense(beyond_) * at.state.x[*at.index.friction(point_)]) / setting.scales.force;
+  if (!at.rubs(contact_)) return 1.0;
+  const double most = friction_coefficient(setting, at.layout, contact_) * at.force(contact_);
+  return (most + slip_sense(beyond_) * at.state.x[*at.index.friction(contact_)]) / setting.scales.force;
 }
 
 Row FrictionBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
   Row row = at.no_slope();
-  if (!at.rubs(point_)) return row;
-  row.dx[*at.index.force(point_)] = friction_coefficient(setting, at.layout, point_) / setting.scales.force;
-  row.dx[*at.index.friction(point_)] = slip_sense(beyond_) / setting.scales.force;
+  if (!at.rubs(contact_)) return row;
+  row.dx[*at.index.force(contact_)] = friction_coefficient(setting, at.layout, contact_) / setting.scales.force;
+  row.dx[*at.index.friction(contact_)] = slip_sense(beyond_) / setting.scales.force;
   return row;
+}
+
+BoundPlace FrictionBound::place(const SlidingSetting& setting, const SlidingState& at) const {
+  const Touch touch = touch_of_contact(setting, at.layout, contact_);
+  const double s = at.mesh.coordinate(touch.strand, touch.position, at.now.s);
+  return {.at = {.strand = touch.strand, .s = s}, .obstacle = touch.obstacle};
 }
 
 namespace {

@@ -5,13 +5,15 @@
 
 namespace arcwall::sliding {
 
-/// μ p ∓ T of a point that sticks by friction, one a sense of slip: behind it the point slips in that sense. No
+/// μ p ∓ T of a contact that sticks by friction, one a sense of slip: behind it the contact slips in that sense. No
 /// unknowns change, so that it has no transitions.
-class FrictionBound final : public BoundOfPoint<BoundKind::friction> {
+class FrictionBound final : public BoundOfKind<BoundKind::friction> {
  public:
   /// `beyond`: the slip.
-  FrictionBound(std::size_t point, ContactMode beyond) : BoundOfPoint(point), beyond_(beyond) {}
+  FrictionBound(std::size_t contact, ContactMode beyond) : contact_(contact), beyond_(beyond) {}
+  std::size_t contact() const { return contact_; }
   ContactMode beyond() const { return beyond_; }
+  BoundPlace place(const SlidingSetting& setting, const SlidingState& at) const override;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting&, const SlidingState&, const Arrival&) const override {
@@ -19,6 +21,7 @@ class FrictionBound final : public BoundOfPoint<BoundKind::friction> {
   }
 
  private:
+  std::size_t contact_;
   ContactMode beyond_;
 };
 

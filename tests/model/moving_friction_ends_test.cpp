@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/model/friction_decks.hpp"
+
+// Friction at free ends of members, with contact points that move. References by shooting with steps of order 8.
+namespace arcwall::friction_test {
+
+namespace {
+
+const std::string moving = "[contact]\npoints = \"moving\"\n";
+
+// A strip bent to a circle of radius 1, which a clamp at 60° points down to a floor; the clamp goes down by λ. The tip
+// slides until it is tangent; from there on contact moves inside.
+std::string bent_strip(double friction, const std::string& stages) {
+  std::string text = strip(friction, stages);
+  const auto replace = [&](const std::string& old, const std::string& by) {
+    text.replace(text.find(old), old.size(), by);
+  };
+  replace("clamp = [0.0, 0.8660254037844386]\ntip = [0.5, 0.0]",
+          "clamp = [0.0, 0.49888640232521775]\ntip = [0.8188453735832679, 0.0]");
+  replace("to = \"tip\",", "to = \"tip\", via = [0.345729380571248, 0.14490042572575468],");
+  return text + moving;
+}
+
+}  // namespace
+
+TEST(MovingFrictionEnds, DraggedTipSlipsSticksAndSlipsBack) {
+  const std::string text =
+      strip(0.3,
+            stage("press", "prescribed.0", 0.0005, -1.0, 0.4) + stage("drag", "prescribed.1", 0.01, -1.0, 0.1) +
+                stage("back", "prescribed.1", -0.001, -0.2, 1.0),
+            "[[prescribed]]\nat = \"clamp\"\nx = 1.0\n") +
+      moving;
+  const Session session = run_of(text);
+  EXPECT_EQ(reason(session), EndReason::stop);
+  expect_law(session);
+  const RecordPoint& pressed = point_at(session, 0, 0.4);
+  EXPECT_NEAR(pressed.monitors[0], 0.848318084440 - 0.5, 1e-7);
+  EXPECT_NEAR(pressed.monitors[2], 2.043932631876, 1e-6);
+  EXPECT_NEAR(pressed.monitors[1], -0.6131797895628, 1e-6);
+  const auto slips = lambdas(session, EventKind::contact_slips, 2);
+  ASSERT_EQ(slips.size(), 1U);
+  EXPECT_NEAR(slips[0], -0.00245442295107, 1e-8);
+  EXPECT_NEAR(monitor_at_end(session, 2), 1.597276181152, 1e-6);
+  EXPECT_NEAR(monitor_at_end(session, 1), 0.479182854346, 1e-6);
+  for (const std::size_t killed : {std::size_t{5}, session.points().size() / 2, session.points().size() - 3})
+    expect_resumed(text, session, killed);
+}
+
+TEST(MovingFrictionEnds, PressedTipSticksBucklesAndSlips) {
+  const Session session = run_of(strip(0.8, stage("press", "prescribed.0", 0.0005, -1.0, 0.08)) + moving);
+  expect_law(session);
+  const auto slips = lambdas(session, EventKind::contact_slips, 0),
+             turns = lambdas(session, EventKind::contact_limit_point, 0),
+             smooth = lambdas(session, EventKind::limit_point, 0);
+  ASSERT_EQ(slips.size(), 1U);
+  EXPECT_NEAR(slips[0], 0.0723106541656, 1e-7);
+  ASSERT_EQ(turns.size(), 1U);
+  ASSERT_EQ(smooth.size(), 1U);
+  EXPECT_NEAR(smooth[0], 0.06692724, 1e-6);
+}
+
+// The slip goes on as contact moves inside; turned, the point rolls before it slips back.
+TEST(MovingFrictionEnds, ContactMovesInsideFromATip) {
+  const Session session = run_of(bent_strip(
+      0.3, stage("press", "prescribed.0", 0.0005, -1.0, 0.2) + stage("lift", "prescribed.0", -0.001, -0.1, 1.0)));
+  expect_law(session);
+  const auto inside = lambdas(session, EventKind::contact_transfers, 0);
+  ASSERT_EQ(inside.size(), 1U);
+  EXPECT_NEAR(inside[0], 0.02720047487, 1e-7);
+  const RecordPoint& pressed = point_at(session, 0, 0.2);
+  ASSERT_EQ(pressed.forces.size(), 1U);
+  EXPECT_NEAR(pressed.forces[0].force, 1.7608939598, 1e-5);
+  EXPECT_NEAR(pressed.forces[0].label.fraction, 0.69114965928, 1e-6);
+  EXPECT_EQ(pressed.forces[0].friction->mode, ContactMode::slips_forward);
+  const auto slips = lambdas(session, EventKind::contact_slips, 1);
+  ASSERT_EQ(slips.size(), 1U);
+  EXPECT_NEAR(0.2 + slips[0], 0.1970972067, 1e-9);
+}
+
+}  // namespace arcwall::friction_test
