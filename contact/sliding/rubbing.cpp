@@ -61,6 +61,19 @@ bool supports_bear_friction(const SlidingSetting& setting, const SlidingContactL
   return !slides && !(has_lever && unknowns[2] >= 0);
 }
 
+// Without pressure nothing rubs between the edges of a part. With a lever friction would bend the body into the wall at
+// one of them.
+std::string why_not_beside(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t point) {
+  if (!layout.lies_beside(point)) return {};
+  const Touch touch = touch_of_contact(setting, layout, point);
+  if (layout.lies_pressed(point))
+    return "friction along a member that a wall presses is not modelled with moving contact points";
+  if (setting.obstacles[touch.obstacle].rubbing_offset(setting.body.half_height(touch.strand)) != 0.0)
+    return "friction of a part that lies on a wall with its face is not modelled: contact.friction_at = \"axis\" or "
+           "contact.points = \"nodes\" is";
+  return {};
+}
+
 }  // namespace
 
 double friction_coefficient(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact) {
@@ -83,12 +96,15 @@ std::string why_friction_is_not_modelled(const SlidingSetting& setting, const Ac
   const SlidingContactLayout& layout = sliding_layout(active_set);
   for (std::size_t j = 0; j < active_set.contacts(); ++j) {
     if (active_set[j] == 0 || friction_coefficient(setting, layout, j) == 0.0) continue;
-    if (j < layout.points().size() && layout.lies_beside(j))
-      return "friction along a member that lies on a wall is not modelled with moving contact points";
-    if (std::string why = why_friction_is_not_modelled_at(setting, layout, j); !why.empty()) return why;
+    std::string why = j < layout.points().size() ? why_not_beside(setting, layout, j)
+                                                 : why_friction_is_not_modelled_at(setting, layout, j);
+    if (!why.empty()) return why;
     if (!rubs(active_set, j))
       return "how friction goes on where contact changes like this is not modelled with moving contact points";
   }
+  for (const SlidingContactLayout::NeutralSpan& span : layout.neutral_spans())
+    if (rubs(active_set, span.end_point()))
+      return "friction beside free spans without moments at their ends is not modelled with moving contact points";
   for (std::size_t strand = 0; strand < layout.lying().size(); ++strand)
     if (const auto obstacle = layout.lying()[strand])
       if (setting.obstacles[*obstacle].friction(static_cast<Index>(strand)) > 0.0)

@@ -12,6 +12,7 @@
 #include "contact/sliding/bounds/pulling_jump.hpp"
 #include "contact/sliding/bounds/tip_presses.hpp"
 #include "contact/sliding/curvature_jumps.hpp"
+#include "contact/sliding/handed_friction.hpp"
 #include "contact/sliding/pulling_jumps.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
@@ -77,19 +78,32 @@ Transition back_to(const SlidingSetting& setting, const SlidingState& at, const 
   return transition;
 }
 
-// Two points at the ends of each span become one in its middle.
-Transition gathered(const SlidingSetting& setting, const SlidingState& at, const Points& spans) {
+// What the point may do that two points become: if these do not do the same, one or the other, or it sticks.
+std::vector<ContactMode> modes_of_one(const SlidingState& at, std::size_t first) {
+  const ContactMode one = at.layout.rubbing(first).mode, other = at.layout.rubbing(first + 1).mode;
+  if (one == other) return {one};
+  std::vector<ContactMode> modes{ContactMode::sticks};
+  for (const ContactMode mode : {one, other})
+    if (slips(mode)) modes.push_back(mode);
+  return modes;
+}
+
+// Two points at the ends of each span become one in its middle. `mode`: what friction does there.
+Transition gathered(const SlidingSetting& setting, const SlidingState& at, const Points& spans, ContactMode mode) {
   LayoutEdit edit = edit_of(setting.body, at);
   const auto middle = [&](std::size_t k) { return 0.5 * (edit.place(k) + edit.place(k + 1)); };
   std::vector<double> places;
   for (const std::size_t k : spans) places.push_back(middle(k));
   for (auto k = spans.rbegin(); k != spans.rend(); ++k) {
     const double s = middle(*k);
+    const HandedFriction friction =
+        merged(friction_of_point_at(setting, at, *k, s), friction_of_point_at(setting, at, *k + 1, s), mode, s);
     edit.points[*k].behind = edit.points[*k + 1].behind;
     edit.points[*k].neutral_behind = edit.points[*k + 1].neutral_behind;
     edit.forces[*k] += edit.forces[*k + 1];
     edit.erase(*k + 1, edit.elements_behind(*k + 1));
     edit.place(*k) = s;
+    friction.give_to_point(*k, 1.0, edit);
   }
   return back_to<CurvatureBound>(setting, at, edit, places, Transition::Change::gathers);
 }
@@ -131,14 +145,17 @@ Transition joined(const SlidingSetting& setting, const SlidingState& at, const P
 
 }  // namespace
 
-Transition span_vanishes(const SlidingSetting& setting, const SlidingState& at, std::size_t point,
-                         const Arrival& arrival) {
+std::vector<Transition> span_vanishes(const SlidingSetting& setting, const SlidingState& at, std::size_t point,
+                                      const Arrival& arrival) {
   const auto closes_a_gap = [&](std::size_t k) { return at.layout.parts_pressed(k); };
   Points spans;
   for (const LengthBound* bound : reached<LengthBound>(setting, at, arrival)) spans.push_back(bound->point());
   if (std::find(spans.begin(), spans.end(), point) == spans.end()) spans = {point};
   std::erase_if(spans, [&](std::size_t k) { return closes_a_gap(k) != closes_a_gap(point); });
-  return closes_a_gap(point) ? joined(setting, at, spans) : gathered(setting, at, spans);
+  if (closes_a_gap(point)) return {joined(setting, at, spans)};
+  std::vector<Transition> transitions;
+  for (const ContactMode mode : modes_of_one(at, point)) transitions.push_back(gathered(setting, at, spans, mode));
+  return transitions;
 }
 
 Transition zone_joins_at_plane(const SlidingSetting& setting, const SlidingState& at, std::size_t point, bool last) {
@@ -222,7 +239,7 @@ std::vector<Transition> neighbours_vanish(const SlidingSetting& setting, const S
   std::vector<Transition> transitions;
   if (auto transition = joined_at_jump(setting, at, point)) transitions.push_back(std::move(*transition));
   if (const auto first = half_pressed_stretch(setting, at, forward, point))
-    transitions.push_back(gathered(setting, at, {*first, *first + 1}));
+    transitions.push_back(gathered(setting, at, {*first, *first + 1}, ContactMode::open));
   const bool before = at.layout.span_before(point) == Span::pressed;
   const bool behind = at.layout.points()[point + 1].behind == Span::pressed;
   if (at.layout.points()[point].behind == Span::free && before != behind && !obstacle_is_straight(setting, at, point))

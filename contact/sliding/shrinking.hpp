@@ -11,8 +11,8 @@ namespace arcwall::sliding {
 
 /// What lies behind a state where the span behind a tracked point has become short: a line gathers to a point, or the
 /// gap between two parts on an obstacle closes and they join. Spans of the same kind that do so together go with it.
-Transition span_vanishes(const SlidingSetting& setting, const SlidingState& at, std::size_t point,
-                         const Arrival& arrival);
+std::vector<Transition> span_vanishes(const SlidingSetting& setting, const SlidingState& at, std::size_t point,
+                                      const Arrival& arrival);
 
 /// What may lie there instead: a short part of which one half is pressed and one arches off gathers to a point as a
 /// whole; and where the wall bends away from the body between a pressed part and a point beside it, so that no part

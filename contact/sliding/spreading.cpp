@@ -10,6 +10,7 @@
 #include "contact/sliding/bounds/clamp.hpp"
 #include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/clamps.hpp"
+#include "contact/sliding/handed_friction.hpp"
 #include "contact/sliding/neutral_spans.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/pulling_jumps.hpp"
@@ -196,16 +197,18 @@ std::size_t spread_from(const SlidingSetting& setting, const SlidingState& at, c
   const bool straight = obstacle_is_straight(setting, at, held.touch);
   const int fewest = between == Span::pressed ? std::max(fewest_pressed(straight) / 2, 2) : 1;
   const int part = elements_asked(setting.body, end.strand, 0.0, length, fewest);
-  return edit.insert({.point = {.obstacle = end.obstacle,
-                                .behind = end.last ? between : Span::free,
-                                .before = end.last ? Span::free : between,
-                                .neutral_behind = !end.last && neutral,
-                                .neutral_before = end.last && neutral},
-                      .strand = end.strand,
-                      .s = s,
-                      .closed = true,
-                      .force = force - edit.end_forces[contact]},
-                     end.last ? rest : part, end.last ? part : rest);
+  const std::size_t edge = edit.insert({.point = {.obstacle = end.obstacle,
+                                                  .behind = end.last ? between : Span::free,
+                                                  .before = end.last ? Span::free : between,
+                                                  .neutral_behind = !end.last && neutral,
+                                                  .neutral_before = end.last && neutral},
+                                        .strand = end.strand,
+                                        .s = s,
+                                        .closed = true,
+                                        .force = force - edit.end_forces[contact]},
+                                       end.last ? rest : part, end.last ? part : rest);
+  friction_of_point_at(setting, at, contact_of(setting, at, end), s).give_to_point(edge, 1.0, edit);
+  return edge;
 }
 
 // Each of the points, ascending, becomes two, a short way apart, and the half that is there of each point in a plane
@@ -240,6 +243,8 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
                  .force = end.force * force},
                 between_them, behind);
     edit.points[*k].behind = span;
+    friction_of_point_at(setting, at, *k, s).give_to_point(*k, 1.0 - end.force, edit);
+    friction_of_point_at(setting, at, *k, s + length).give_to_point(*k + 1, end.force, edit);
   }
   std::shared_ptr<const Observable> of_one;
   if (!points.empty()) of_one = std::make_shared<SpanLength>(points.front());

@@ -7,7 +7,8 @@
 
 #include "tests/model/friction_decks.hpp"
 
-// Friction at free ends of members, with contact points that move. References by shooting with steps of order 8.
+// Friction at free ends of members and at the edges of flat contact zones, beside contact points that move. References
+// by shooting with steps of order 8.
 namespace arcwall::friction_test {
 
 namespace {
@@ -81,6 +82,27 @@ TEST(MovingFrictionEnds, ContactMovesInsideFromATip) {
   const auto slips = lambdas(session, EventKind::contact_slips, 1);
   ASSERT_EQ(slips.size(), 1U);
   EXPECT_NEAR(0.2 + slips[0], 0.1970972067, 1e-9);
+}
+
+// Where the bending moment at its contact vanishes, the column between rough walls lies on one of them: flush, without
+// pressure, with a force and its friction at each edge. Both slip.
+TEST(MovingFrictionEnds, ColumnSlipsOnTheEdgesOfItsZone) {
+  const Session session =
+      run_of(column(0.2, stage("on", "load.0", 0.05, -1.0, 2.2) + "[path]\noutput_at = { lambda = [1.9] }\n"));
+  expect_law(session);
+  EXPECT_EQ(reason(session), EndReason::stop);
+  const auto spreads = lambdas(session, EventKind::contact_spreads, 0);
+  ASSERT_EQ(spreads.size(), 1U);
+  EXPECT_NEAR(spreads[0], 1.780749199922, 1e-6);
+  const RecordPoint& there = point_at(session, 0, 1.9);
+  ASSERT_EQ(there.forces.size(), 2U);
+  EXPECT_NEAR(there.forces[0].force, 0.27909030262, 1e-6);
+  EXPECT_NEAR(there.forces[1].force, 0.30766630771, 1e-6);
+  EXPECT_NEAR(2.0 * there.forces[0].label.fraction, 0.98405363961, 1e-5);
+  EXPECT_NEAR(2.0 * there.forces[1].label.fraction, 1.04684854548, 1e-5);
+  EXPECT_NEAR(there.monitors[0], 0.05332340099, 1e-6);
+  for (const RecordForce& edge : there.forces) EXPECT_EQ(edge.friction->mode, ContactMode::slips_forward);
+  EXPECT_NEAR(point_at(session, 0, 2.2).monitors[0], 0.05888030620, 1e-6);
 }
 
 }  // namespace arcwall::friction_test

@@ -105,15 +105,16 @@ TEST(MovingFriction, BeamOverPropsOnItsFace) {
 }
 
 // What touches slips at once: a touch that rolls would need T = 3.6 p. It spreads where the bending moment at the
-// contact vanishes, behind which friction is not modelled.
+// contact vanishes.
 TEST(MovingFriction, ColumnSlipsUntilItsContactSpreads) {
   const std::vector<std::pair<double, double>> spreads{
       {0.05, 1.739660111834}, {0.1, 1.753185122457}, {0.2, 1.780749199922}};
   for (const auto& [friction, lambda] : spreads) {
-    const Session session = run_of(column(friction, stage("on", "load.0", 0.05, -1.0, 3.0)));
-    EXPECT_EQ(reason(session), EndReason::not_modelled);
-    EXPECT_NEAR(session.points().back().lambda, lambda, 1e-6);
-    const RecordForce& contact = session.points().back().forces.front();
+    const Session session = run_of(column(friction, stage("on", "load.0", 0.05, -1.0, 2.0)));
+    const auto found = lambdas(session, EventKind::contact_spreads, 0);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found.front(), lambda, 1e-6);
+    const RecordForce& contact = point_at(session, 0, found.front()).forces.front();
     EXPECT_EQ(contact.friction->mode, ContactMode::slips_forward);  // along the tangent, which runs to the left
     EXPECT_NEAR(contact.friction->force, -friction * contact.force, 1e-12);
     expect_law(session);
@@ -200,12 +201,13 @@ sign = -1
 [path]
 step = 0.01
 branches = "primary"
-stop = {{ lambda = [-1.0, 1.0] }}
+stop = {{ lambda = [-1.0, 0.6] }}
 output_at = {{ lambda = [0.1, 0.2, 0.3] }}
 )",
                                                sideways));
-    EXPECT_EQ(reason(session), EndReason::not_modelled);
-    EXPECT_NEAR(session.points().back().lambda, 0.564473204895, 1e-6);
+    const auto spreads = lambdas(session, EventKind::contact_spreads, 0);
+    EXPECT_NEAR(spreads.empty() ? session.points().back().lambda : spreads.front(), 0.564473204895, 1e-6);
+    EXPECT_EQ(reason(session), sideways == 0.0 ? EndReason::stop : EndReason::not_modelled);
     EXPECT_TRUE(lambdas(session, EventKind::contact_slips, 0).empty());
     for (std::size_t i = 0; i < 3; ++i) {
       const RecordPoint& point = point_at(session, 0, 0.1 * double(i + 1));
@@ -219,11 +221,19 @@ output_at = {{ lambda = [0.1, 0.2, 0.3] }}
   }
 }
 
-// No place but a contact has a slip of its own.
+// Where a face lies on a rough wall the path ends with a reason; and no place but an end has a slip of its own.
 TEST(MovingFriction, WhatIsNotModelledIsRefused) {
   const std::string bad =
       column(0.2, "[[monitor]]\nname = \"slip\"\nwall = \"upper\"\nat = \"column:0.5\"\ncomponent = \"slip\"\n");
   EXPECT_THROW(session_of(bad), InputError);
+  std::string faces = column(0.2, stage("on", "load.0", 0.05, -1.0, 3.0));
+  for (const std::string surface = "contact_surface = \"axis\"\n"; faces.find(surface) != std::string::npos;)
+    faces.erase(faces.find(surface), surface.size());
+  const std::string shape = "shape = \"general\"\nA = 1.0\nI = 8.333333333333333e-4";
+  faces.replace(faces.find(shape), shape.size(), "shape = \"rectangle\"\nwidth = 10.0\nheight = 0.1");
+  const Session ended = run_of(faces);
+  EXPECT_EQ(reason(ended), EndReason::not_modelled);
+  EXPECT_NE(ended.record().branches.back().end->detail.find("with its face"), std::string::npos);
 }
 
 }  // namespace arcwall::friction_test

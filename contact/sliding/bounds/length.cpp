@@ -23,7 +23,7 @@ Row LengthBound::gradient(const SlidingSetting& setting, const SlidingState& at)
 
 std::vector<Transition> LengthBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                  const Arrival& arrival) const {
-  std::vector<Transition> transitions{span_vanishes(setting, at, point_, arrival)};
+  std::vector<Transition> transitions = span_vanishes(setting, at, point_, arrival);
   for (Transition& other : neighbours_vanish(setting, at, arrival.forward, point_))
     transitions.push_back(std::move(other));
   transitions.push_back(
