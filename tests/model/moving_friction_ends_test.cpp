@@ -105,4 +105,22 @@ TEST(MovingFrictionEnds, ColumnSlipsOnTheEdgesOfItsZone) {
   EXPECT_NEAR(point_at(session, 0, 2.2).monitors[0], 0.05888030620, 1e-6);
 }
 
+// Turned at 1.9 both edges stick; the left one slips on at 1.78496, the right one slips back, and where the left one
+// has come to its other bound, too, the zone gathers: at the thrust that its other end had where it spread.
+TEST(MovingFrictionEnds, EdgesGatherAgain) {
+  const std::string text =
+      column(0.2, stage("on", "load.0", 0.05, -1.0, 1.9) + stage("back", "load.0", -0.02, -0.3, 5.0));
+  const Session session = run_of(text);
+  expect_law(session);
+  EXPECT_EQ(reason(session), EndReason::stop);
+  const auto slips = lambdas(session, EventKind::contact_slips, 1),
+             shrinks = lambdas(session, EventKind::contact_shrinks, 1);
+  ASSERT_EQ(slips.size(), 2U);
+  EXPECT_NEAR(1.9 + slips[0], 1.784961, 5e-6);
+  ASSERT_EQ(shrinks.size(), 1U);
+  EXPECT_NEAR(1.9 + shrinks[0], 1.6743009425, 1e-7);
+  for (const std::size_t killed : {session.points().size() - 12, session.points().size() - 4})
+    expect_resumed(text, session, killed);
+}
+
 }  // namespace arcwall::friction_test

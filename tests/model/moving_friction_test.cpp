@@ -161,7 +161,7 @@ TEST(MovingFriction, StepsAndMethodsDoNotChangeTheEvents) {
 }
 
 // A ring between plates needs no friction: where N = 0 a contact rolls, and nothing changes its shape. Its weak
-// springs, 1e-5 of its stiffness, are all that friction bears.
+// springs, 1e-5 of its stiffness, are all that friction bears. Both contacts spread together.
 TEST(MovingFriction, RingRollsBetweenRoughPlates) {
   const std::vector<double> forces{0.625382563985, 1.174293567876, 1.666264845603};
   for (const double sideways : {0.0, 0.5}) {
@@ -207,7 +207,6 @@ output_at = {{ lambda = [0.1, 0.2, 0.3] }}
                                                sideways));
     const auto spreads = lambdas(session, EventKind::contact_spreads, 0);
     EXPECT_NEAR(spreads.empty() ? session.points().back().lambda : spreads.front(), 0.564473204895, 1e-6);
-    EXPECT_EQ(reason(session), sideways == 0.0 ? EndReason::stop : EndReason::not_modelled);
     EXPECT_TRUE(lambdas(session, EventKind::contact_slips, 0).empty());
     for (std::size_t i = 0; i < 3; ++i) {
       const RecordPoint& point = point_at(session, 0, 0.1 * double(i + 1));
