@@ -172,7 +172,7 @@ std::vector<double> dissipated_elastically(const Model& model, const State& stat
 std::vector<RecordSlip> Recorder::slips_behind(const State& event, const PathPoint& behind) const {
   const double unit = model_->frame().factor();
   std::vector<RecordSlip> slips = slips_along(model_->friction(), behind.state, behind.tangent, unit);
-  if (event.active_set != behind.state.active_set)
+  if (event.active_set.contacts() != behind.state.active_set.contacts())
     add_dissipated_before(*model_->friction(), event, behind.state, unit, slips);
   return slips;
 }
@@ -195,7 +195,7 @@ std::vector<double> Recorder::dissipation_until(const PathTangent& arrives, cons
       const auto wall = wall_of(arrives.state, at.contact);
       sums[static_cast<std::size_t>(wall)] += from.before + dissipated(from, at, to.arc - before.arc);
     }
-  if (to.state.active_set == arrives.state.active_set) return sums;
+  if (to.state.active_set.contacts() == arrives.state.active_set.contacts()) return sums;
   for (const RecordSlip& behind : slips_behind(arrives.state, to))
     sums[static_cast<std::size_t>(wall_of(to.state, behind.contact))] += behind.before;
   return sums;
