@@ -36,9 +36,10 @@ double dissipated(const RecordSlip& from, const RecordSlip& to, double arc_lengt
   const HermiteCubic T = cubic(from.force, from.force_rate, to.force, to.force_rate);
   const HermiteCubic w = of_place(&ContactPlace::w), s = of_place(&ContactPlace::s),
                      stretch = of_place(&ContactPlace::stretch);
+  const bool rolls = from.rates.s != 0.0 || to.rates.s != 0.0;  // an end stays, whichever way its body turns
   double sum = 0.0;
   for (const auto& [u, weight] : gauss_of_cubics)
-    sum -= weight * T.value(u) * (w.slope(u) - stretch.value(u) * s.slope(u));
+    sum -= weight * T.value(u) * (w.slope(u) - (rolls ? stretch.value(u) * s.slope(u) : 0.0));
   return std::max(sum, 0.0);
 }
 

@@ -189,7 +189,8 @@ Quadrature dissipated_while_moving(const SlidingContact& contacts, const std::ve
     }
     if (w.size() != points.size()) continue;
     sum += integral(arc, against, w);
-    sum += integral(arc, against_rolled, s);
+    const bool is_end = static_cast<std::size_t>(j) >= sliding_layout(within.active_set).points().size();
+    if (!is_end) sum += integral(arc, against_rolled, s);
   }
   return sum;
 }
