@@ -52,7 +52,7 @@ double MultiplierContact::law_of_slip(const State& state, const Friction& fricti
          slip_sense(friction.history.mode) * candidates_[friction.contact].friction() * state.x[friction.p];
 }
 
-const FrictionLayout& MultiplierContact::history(const ActiveSet& active_set) const {
+const FrictionLayout& MultiplierContact::anchors(const ActiveSet& active_set) const {
   const auto* layout = dynamic_cast<const FrictionLayout*>(active_set.layout().get());
   return layout != nullptr ? *layout : *rest_friction_;
 }
@@ -60,7 +60,7 @@ const FrictionLayout& MultiplierContact::history(const ActiveSet& active_set) co
 std::vector<MultiplierContact::Friction> MultiplierContact::frictions(const ActiveSet& active_set) const {
   std::vector<Friction> found;
   if (!has_friction()) return found;
-  const FrictionLayout& layout = history(active_set);
+  const FrictionLayout& layout = anchors(active_set);
   const Index n = inner_.size({});
   for_each_force(active_set, [&](std::size_t j, Index k) {
     if (candidates_[j].friction() > 0.0) found.push_back({.contact = j, .p = n + k, .history = layout[j]});
@@ -75,7 +75,7 @@ std::vector<MultiplierContact::Friction> MultiplierContact::frictions(const Acti
 
 ContactMode MultiplierContact::mode(const ActiveSet& active_set, Index j) const {
   if (!active_set[static_cast<std::size_t>(j)]) return ContactMode::open;
-  return is_rough(j) ? history(active_set)[static_cast<std::size_t>(j)].mode : ContactMode::closed;
+  return is_rough(j) ? anchors(active_set)[static_cast<std::size_t>(j)].mode : ContactMode::closed;
 }
 
 std::vector<Index> MultiplierContact::slipping(const ActiveSet& active_set) const {
@@ -147,7 +147,7 @@ std::optional<ModeOfContact> MultiplierContact::beyond_friction_bound(const Acti
 }
 
 State MultiplierContact::with_modes(const State& state, std::span<const ModeOfContact> modes) const {
-  std::vector<FrictionLayout::Contact> contacts = history(state.active_set).contacts();
+  std::vector<FrictionLayout::Contact> contacts = anchors(state.active_set).contacts();
   std::vector<std::uint8_t> closed(state.active_set.begin(), state.active_set.end());
   for (std::size_t j = 0; j < contacts.size(); ++j)
     if (!closed[j]) contacts[j] = {};

@@ -97,7 +97,7 @@ State MultiplierContact::gripped(const MultiplierContact& free, const State& sta
   }
   std::vector<FrictionLayout::Contact> histories;
   for (std::size_t j = 0; j < number.size() && has_friction(); ++j)
-    histories.push_back(free.history(state.active_set)[number[j]]);
+    histories.push_back(free.anchors(state.active_set)[number[j]]);
   ActiveSet active_set(number.size(), 0,
                        has_friction() ? std::make_shared<const FrictionLayout>(std::move(histories)) : nullptr);
   const auto can_move = [&](const Candidate& candidate) {

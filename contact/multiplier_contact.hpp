@@ -130,7 +130,7 @@ class MultiplierContact final : public System, public FrictionalContact, public 
     double held(const Vector& x) const { return w ? x[*w] : history.anchor; }
   };
   std::vector<Friction> frictions(const ActiveSet& active_set) const;
-  const FrictionLayout& history(const ActiveSet& active_set) const;
+  const FrictionLayout& anchors(const ActiveSet& active_set) const;
   Index force_count(const ActiveSet& active_set) const;
   void add_friction(const State& state, Eigen::Ref<Vector> F) const;
   void add_friction(const State& state, Linearization& out) const;

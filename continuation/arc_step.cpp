@@ -261,7 +261,9 @@ std::optional<CornerPassed> leave_active_set(TraceTools& tools, const TracerStat
 void commit_end(TraceTools& tools, double lambda_scale, double length, PathPoint& end, Accepted& accepted) {
   PathTangent arrives{.state = end.state, .tangent = end.tangent};
   Departure& leave = accepted.leave;
-  if (!commit(tools, tools.metric_on(end.state.active_set, lambda_scale), arrives.tangent, length, end)) return;
+  const auto changed = commit(tools, tools.metric_on(end.state.active_set, lambda_scale), arrives.tangent, length, end);
+  if (!changed && !accepted.end) accepted.end = end_without_tangent();
+  if (!changed.value_or(false)) return;
   const std::vector<int> before = std::exchange(leave.signs, signs_at(tools.detectors, end));
   add_turns(tools, before, leave.signs,
             {.state = end.state,
@@ -307,10 +309,10 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
   }
   for (Event& event : value_crossings(tools, origin, end, end.point, behind))
     accepted.arc.events.push_back(std::move(event));
+  commit_end(tools, state.lambda_scale, end.length, end.point, accepted);
   if (!accepted.end && new_contacts)
     accepted.end = stop_at_contacts(tools.options, origin.point().state.active_set, end.point.state.active_set);
   if (!accepted.end) accepted.end = stop_at_events(tools.options, accepted.arc.events);
-  commit_end(tools, state.lambda_scale, end.length, end.point, accepted);
   begin_next(origin, passed && passed->entered ? passed->entered->begin : end.point, smooth, accepted.leave);
   if (passed && passed->entered) accepted.leave.known_end = std::move(passed->entered->first);
   if (passed && passed->entered && !passed->entered->values.empty()) {

@@ -72,7 +72,8 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
     events = std::move(passed.events);
     at = std::move(passed.at);
   }
-  commit(tools, tools.metric_on(at.state.active_set, state.lambda_scale), forward, 0.0, at);
+  const bool is_committed =
+      commit(tools, tools.metric_on(at.state.active_set, state.lambda_scale), forward, 0.0, at).has_value();
   at.count = tools.counter.count(at.state, at.negative_eigenvalues);
   std::optional<EnteredActiveSet> entered;
   if (const auto bound = bound_passed_at(tools.system, at, tools.options.guard_tolerance)) {
@@ -97,6 +98,7 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
   begun.from.negative_eigenvalues = from.negative_eigenvalues;
   begun.from.count_after = from.count;
   if (entered) begun.from.known_end = std::move(entered->first);
+  if (!is_committed && !begun.end) begun.end = end_without_tangent();
   return begun;
 }
 

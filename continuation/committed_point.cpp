@@ -20,8 +20,9 @@ int orientation(const PathPoint& at) {
 
 // What slips depends on the tangent, and that on what slips: all that contradict each other change, and after some
 // rounds one after the other.
-bool commit(TraceTools& tools, const Metric& metric, const Direction& forward, double length, PathPoint& at) {
-  constexpr int together = 10, most_rounds = 1000;
+std::optional<bool> commit(TraceTools& tools, const Metric& metric, const Direction& forward, double length,
+                           PathPoint& at) {
+  constexpr int together = 10, most_rounds = 1000;  // each point changes a few times, of some hundred on a wall
   const PathHistory* const history = tools.system.history();
   if (history == nullptr) return false;
   at.state = history->committed(at.state, at.tangent, length);
@@ -31,10 +32,10 @@ bool commit(TraceTools& tools, const Metric& metric, const Direction& forward, d
     PathHistory::Leaving next = history->leaving(at.state, at.tangent, round >= together);
     if (!next.has_changed) {
       at.state = std::move(next.state);
-      break;
+      return has_changed;
     }
     CorrectorResult seen = tools.corrector.inspect(next.state, metric, at.tangent);
-    if (!seen.converged()) break;
+    if (!seen.converged()) return std::nullopt;
     PathPoint turned = path_point(tools.system, metric, std::move(seen), forward);
     decide_count(tools, turned);
     if (arriving * orientation(turned) < 0) {
@@ -48,7 +49,12 @@ bool commit(TraceTools& tools, const Metric& metric, const Direction& forward, d
     at = std::move(turned);
     has_changed = true;
   }
-  return has_changed;
+  return std::nullopt;
+}
+
+BranchEnd end_without_tangent() {
+  return {.reason = EndReason::no_continuation,
+          .detail = "no motion was found in which all places that slip on compliant walls agree"};
 }
 
 }  // namespace arcwall

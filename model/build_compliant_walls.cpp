@@ -94,14 +94,14 @@ void check_friction_along(const deck::Deck& deck, DeckProblems& problems) {
                    "the law has no stiffness at penetration 0, from which that along the wall could be taken",
                    "give the law a tangential_stiffness");
     if (wall.contact_surface != deck::ContactSurface::face) continue;
-    if (wall.outline && !on_axis)
+    if (wall.outline)
       problems.add(wall.position, "wall.friction", "friction on faces that roll on an outline is not known",
-                   "write contact.friction_at = \"axis\" or contact_surface = \"axis\", or use a profile");
+                   "write contact_surface = \"axis\", or use a profile");
     const bool is_flat = std::holds_alternative<deck::FlatProfile>(wall.profile) ||
                          std::holds_alternative<deck::LineProfile>(wall.profile);
     if (!wall.outline && !is_flat && on_axis)
       problems.add(wall.position, "wall.friction", "friction on the axis beside a curved profile is not known",
-                   "use an outline, or leave out contact.friction_at");
+                   "leave out contact.friction_at");
   }
 }
 

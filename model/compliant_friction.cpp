@@ -407,6 +407,11 @@ Vec2 CompliantFriction::tangent(const State& state, const Point& point) const {
   return point.pressed->pressure->tangent(local(state, *point.pressed).u, state.lambda, point.number);
 }
 
+State CompliantFriction::without_dissipation(const State& state) const {
+  const SlipLayout& before = history(state);
+  return with(state, before.points(), std::vector<double>(before.dissipated().size(), 0.0));
+}
+
 double CompliantFriction::dissipated(const State& state, std::size_t contact) const {
   return history(state).dissipated()[contact];
 }

@@ -97,6 +97,9 @@ class CompliantFriction final : public PathHistory {
   /// The unit tangent of the wall at a point.
   Vec2 tangent(const State& state, const Point& point) const;
 
+  /// Returns the state as one before which nothing has been dissipated.
+  State without_dissipation(const State& state) const;
+
   /// What friction has dissipated on a contact, as committed [force·length].
   double dissipated(const State& state, std::size_t contact) const;
 

@@ -363,17 +363,14 @@ LoadIncrements Model::increments(State start) {
 // Where λ goes on from rest. Of a member that lies flush on a wall along a part of it, no gap tells how much of the
 // part stays in contact, and for small λ the answer does not depend on λ: the path begins behind the first step then,
 // where contact at the nodes has decided.
-std::optional<State> Model::begun_at_rest(const Assembly& of, double first, std::string& reason) const {
+State Model::begun_at_rest(const Assembly& of, double first) const {
   if (!of.sliding || of.sliding->friction() || of.kinked || !of.sliding->rests_on_part()) return of.start(first);
-  if (auto begun = begun_from_nodes(of, options_up_to(of, first), options_)) return begun;
-  reason =
-      "a part of a member lies flush on a wall at rest, and no equilibrium was found in which it lifts off there; give "
-      "the member more elements, or use contact.points = \"nodes\" with a fine mesh";
-  return std::nullopt;
+  if (auto begun = begun_from_nodes(of, options_up_to(of, first), options_)) return *begun;
+  return of.start(first);
 }
 
 std::optional<State> Model::start(std::string& reason) const {
-  if (!ramp_) return begun_at_rest(path_, deck().path.step, reason);
+  if (!ramp_) return begun_at_rest(path_, deck().path.step);
   std::optional<State> state = grown(reason);
   if (!state) return std::nullopt;
   if (sliding()) {
@@ -381,6 +378,8 @@ std::optional<State> Model::start(std::string& reason) const {
     reason = sliding()->why_not_lying(sliding()->adopted(*state));
     if (!reason.empty()) return std::nullopt;
   }
+  if (compliant() && compliant()->elastic_friction())
+    state = compliant()->elastic_friction()->without_dissipation(*state);
   state->lambda = 0.0;
   State begun = begun_from(*state);
   if (is_stiffened(begun)) return begun;
@@ -412,9 +411,7 @@ std::optional<State> Model::grown(std::string& reason) const {
   int laid = 0;
   constexpr double far_back = -1.0;  // of their value: a path that has turned back by so much does not return
   double most = 0.0;
-  std::optional<State> begun = begun_at_rest(*ramp_, options.step.first, reason);
-  if (!begun) return std::nullopt;
-  State state = std::move(*begun);
+  State state = begun_at_rest(*ramp_, options.step.first);
   std::optional<Tracer> tracer(std::in_place, ramp_->system(), state, options);
   while (const auto arc = tracer->next()) {
     state = arc->to.state;
@@ -472,7 +469,8 @@ State Model::gripped(const State& state, const Model& before) const {
 std::optional<Index> Model::unstable_under_dead_load(const PathPoint& point) const {
   constexpr double vanishing = 1e-6;  // of the parts of a rate
   if (moved_.empty() || !point.count.unstable) return std::nullopt;
-  if (!system().slipping(point.state.active_set).empty()) return std::nullopt;  // K with slips is not symmetric
+  const bool is_symmetric = system().slipping(point.state.active_set).empty() && system().history() == nullptr;
+  if (!is_symmetric) return std::nullopt;
   double rate = 0.0, size = 0.0;
   for (const MovedDof& moved : moved_) {
     const Row row = moved.reaction->gradient(point.state);

@@ -73,10 +73,10 @@ class Model {
   }
   const Structure& structure() const { return *path_.structure; }
 
-  /// Returns the contact of the mesh nodes; null if the deck has no walls, or compliant ones.
-  /// The structure of the path, and what it touches.
+  /// Returns the structure of the path, and what it touches.
   const Assembly& path() const { return path_; }
 
+  /// Returns the contact of the mesh nodes; null if the deck has no walls, or compliant ones.
   const MultiplierContact* contact() const { return path_.contact.get(); }
 
   /// Returns the contact of compliant walls; null if they are not.
@@ -158,7 +158,7 @@ class Model {
   ContactScales scales_of_contact() const;
   std::optional<State> grown(std::string& reason) const;
   TraceOptions options_up_to(const Assembly& of, double lambda) const;
-  std::optional<State> begun_at_rest(const Assembly& of, double first, std::string& reason) const;
+  State begun_at_rest(const Assembly& of, double first) const;
 
   std::shared_ptr<const deck::Deck> whole_deck_;
   Index stage_ = 0;

@@ -51,6 +51,14 @@ ClosedTip closed_tip(const SlidingSetting& setting, const SlidingState& at, std:
   return tip;
 }
 
+// Why contact cannot move between an end and its member.
+std::optional<std::string> why_friction_differs(const SlidingSetting& setting, const FreeEnd& end) {
+  const SlidingObstacle& obstacle = setting.obstacles[end.obstacle];
+  if (obstacle.friction(end.strand) == obstacle.friction_at_end(end.strand, end.last)) return std::nullopt;
+  return "a free end has another coefficient of friction than its member: contact that moves between them is not "
+         "modelled";
+}
+
 // How the body runs between a tip that has come to lie down and the contact inside.
 enum class Tail {
   off,      // free, and the tip is off the obstacle
@@ -257,6 +265,9 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
       has_joint ? "a joint comes into full contact with a wall, but no equilibrium was found there"
                 : "the end of a member comes into full contact with a wall, but no equilibrium was found there");
   if (tips.empty()) return {none};
+  for (const ClosedTip& tip : tips)
+    if (auto why = why_friction_differs(setting, {.strand = tip.strand, .last = tip.last, .obstacle = tip.obstacle}))
+      return {unsupported(std::move(*why))};
   const double length = 2.0 * shortest_tail(setting.body, tips.front().strand);
   const Transition free = with_points_inside(setting, at, tips, std::vector(tips.size(), Tail::off), length);
   std::vector<std::vector<Tail>> ways;
@@ -304,6 +315,7 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
     const auto end = static_cast<std::size_t>(found - setting.free_ends.begin());
     const FreeEnd there = found->seen_from(of);
     if (auto why = what_hinders(setting, at, there, inner)) return {unsupported(std::move(*why))};
+    if (auto why = why_friction_differs(setting, there)) return {unsupported(std::move(*why))};
     ends.push_back(end);
     HandedFriction friction = friction_of_end(setting, at, point, there);
     if (at.rubs(at.layout.points().size() + end)) {

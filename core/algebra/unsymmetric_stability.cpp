@@ -20,7 +20,10 @@ std::optional<Inertia> inertia_of(const BorderedSolver& solver, const SparseMatr
   return factors->factorize(lower_triangle, {}) == FactorStatus::ok ? factors->inertia() : std::nullopt;
 }
 
+constexpr Index most_unknowns = 2000;  // whose eigenvalues are all computed: some ten seconds
+
 std::optional<Index> by_all_eigenvalues(const Linearization& equations) {
+  if (equations.K.cols() > most_unknowns) return std::nullopt;
   const Matrix lower = Matrix(equations.K);
   Matrix J = Matrix(lower.selfadjointView<Eigen::Lower>()) + Matrix(equations.N);
   const Vector scale = J.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
