@@ -225,8 +225,8 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
     const int behind = edit.elements_behind(*k);
     const Shares end = shares_of_end(setting, at, *k, between, length);
     const double force = edit.forces[*k];
-    double& s = edit.place(*k);
-    s -= (1.0 - end.length) * length;
+    edit.place(*k) -= (1.0 - end.length) * length;
+    const double s = edit.place(*k);
     Span span = between;
     if (lies_by_itself(setting, at, *k))
       span = has_load_between(setting, edit.strands[*k], s, s + length) ? Span::pressed : Span::flat;
