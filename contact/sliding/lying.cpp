@@ -95,19 +95,22 @@ class Alongside {
   const Obstacle& surface_;
 };
 
-// How many elements of a strand do.
-Index elements_alongside(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
-                         double touching) {
-  const Alongside alongside(setting, at, strand, obstacle, touching);
-  Index count = 0;
-  for (Index position = 0; position + 1 < at.mesh.nodes(strand); ++position)
-    count += alongside.at_element(position) ? 1 : 0;
-  return count;
-}
-
 bool lies_along(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
                 double touching) {
-  return elements_alongside(setting, at, strand, obstacle, touching) == at.mesh.nodes(strand) - 1;
+  const Alongside alongside(setting, at, strand, obstacle, touching);
+  for (Index position = 0; position + 1 < at.mesh.nodes(strand); ++position)
+    if (!alongside.at_element(position)) return false;
+  return true;
+}
+
+// Whether some elements of a strand do, and others do not.
+bool lies_along_in_part(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
+                        double touching) {
+  const Alongside alongside(setting, at, strand, obstacle, touching);
+  const bool first = alongside.at_element(0);
+  for (Index position = 1; position + 1 < at.mesh.nodes(strand); ++position)
+    if (alongside.at_element(position) != first) return true;
+  return false;
 }
 
 // Whether what acts along a strand presses it on an obstacle everywhere at this λ, but at an end where nothing ever
@@ -147,11 +150,9 @@ constexpr double rounded_off = 1e-9;  // round-off of coordinates [length scale;
 
 bool rests_on_part(const SlidingSetting& setting, const SlidingState& rest) {
   for (Index strand = 0; strand < setting.body.strands(); ++strand)
-    for (std::size_t w = 0; w < setting.obstacles.size(); ++w) {
-      if (!setting.obstacles[w].concerns(strand)) continue;
-      const Index along = elements_alongside(setting, rest, strand, w, rounded_off);
-      if (along > 0 && along < rest.mesh.nodes(strand) - 1) return true;
-    }
+    for (std::size_t w = 0; w < setting.obstacles.size(); ++w)
+      if (setting.obstacles[w].concerns(strand) && lies_along_in_part(setting, rest, strand, w, rounded_off))
+        return true;
   return false;
 }
 
