@@ -91,9 +91,6 @@ void CompliantContact::add_friction() {
   std::vector<CompliantFriction::Pressed> rough;
   for (std::size_t j = 0; j < walls_.size(); ++j) {
     if (!(walls_[j].friction > 0.0)) continue;
-    std::vector<double> rounds;
-    for (const double round : {walls_[j].obstacle->round_length(), 2.0 * pi * walls_[j].obstacle->half_height()})
-      if (round > 0.0) rounds.push_back(round);
     for (const Pressed& pressed : pressed_[j])
       rough.push_back({.pressure = pressed.pressure,
                        .element = pressed.element,
@@ -102,7 +99,7 @@ void CompliantContact::add_friction() {
                        .to = pressed.to,
                        .coefficient = walls_[j].friction,
                        .stiffness = walls_[j].tangential_stiffness,
-                       .rounds = rounds});
+                       .round = walls_[j].obstacle->round_length()});
   }
   if (!rough.empty()) friction_ = std::make_unique<CompliantFriction>(structure_, std::move(rough), walls_.size());
 }

@@ -15,9 +15,8 @@ constexpr std::size_t points_each = WallPressure::rubbing_points;
 // Of a force to its bound below which they are one, as where points reach their bounds together but for round-off.
 constexpr double at_bound = 1e-9;
 
-double within_a_round(double difference, const std::vector<double>& rounds) {
-  for (const double round : rounds) difference -= round * std::round(difference / round);
-  return difference;
+double within_a_round(double difference, double round) {
+  return round > 0.0 ? difference - round * std::round(difference / round) : difference;
 }
 
 // ∫ μ P |dw| over a step of that length, with Hermite's cubics of μ P and of the slip.
@@ -45,6 +44,7 @@ struct CompliantFriction::Held {
   double force = 0.0;
   int sense = 0;  // of its slip; 0: it sticks
 
+  double energy() const { return 0.5 * trial * trial / stiffness; }               // at a fixed slip
   double slip() const { return sense == 0 ? 0.0 : (force - trial) / stiffness; }  // since it was committed
 };
 
@@ -77,7 +77,7 @@ CompliantFriction::Held CompliantFriction::held(const Pressed& pressed, const Wa
                                                 const SlipLayout::Point& before) const {
   Held held{.stiffness = pressed.stiffness * at.length, .most = pressed.coefficient * at.force};
   if (before.is_known && at.faces_wall)
-    held.trial = before.force - held.stiffness * within_a_round(at.place - before.place, pressed.rounds);
+    held.trial = before.force - held.stiffness * within_a_round(at.place - before.place, pressed.round);
   const double size = std::abs(held.trial);
   if (size > held.most || (size == held.most && before.sense != 0)) held.sense = held.trial < 0.0 ? 1 : -1;
   held.force = held.sense == 0 ? held.trial : -held.sense * held.most;
@@ -175,8 +175,7 @@ double CompliantFriction::energy(const State& state) const {
   for_each_pressed(state, [&](const Pressed& pressed, const Local&, const auto& rubbed) {
     for (std::size_t p = 0; p < points_each; ++p) {
       if (!(rubbed[p].force > 0.0)) continue;
-      const Held now = held(pressed, rubbed[p], before[first_point(pressed) + p]);
-      energy += 0.5 * now.trial * now.trial / now.stiffness;
+      energy += held(pressed, rubbed[p], before[first_point(pressed) + p]).energy();
     }
   });
   return energy;
@@ -358,7 +357,7 @@ std::vector<CompliantFriction::OnElement> CompliantFriction::on_elements(const S
       if (!(rubbed[p].force > 0.0)) continue;
       const Held now = held(pressed, rubbed[p], before[first_point(pressed) + p]);
       const Vector place = Eigen::Map<const Vector>(rubbed[p].place_by.data(), n);
-      on.energy += 0.5 * now.trial * now.trial / now.stiffness;
+      on.energy += now.energy();
       on.gradient -= now.trial * place;
       pressed.pressure->add_second_of_place(at.u, state.lambda, p, -now.trial, on.stiffness.data(), by_lambda.data());
       on.stiffness += now.stiffness * place * place.transpose();

@@ -29,11 +29,11 @@ class CompliantFriction final : public PathHistory {
   struct Pressed {
     const WallPressure* pressure = nullptr;
     Index element = 0;
-    std::size_t contact = 0;       ///< of the active set: closed while it acts
-    double from = 0.0, to = 1.0;   ///< fractions of the member
-    double coefficient = 0.0;      ///< μ > 0 [-]
-    double stiffness = 0.0;        ///< k by length of the axis [force/length²]
-    std::vector<double> rounds{};  ///< lengths after which places along the wall begin again
+    std::size_t contact = 0;      ///< of the active set: closed while it acts
+    double from = 0.0, to = 1.0;  ///< fractions of the member
+    double coefficient = 0.0;     ///< μ > 0 [-]
+    double stiffness = 0.0;       ///< k by length of the axis [force/length²]
+    double round = 0.0;           ///< length after which places along the wall begin again; 0: they do not
   };
 
   /// `structure` must outlive this.

@@ -34,13 +34,11 @@ bool is_of(const System& system, const ActiveSet& active_set) {
            active_set.size() == open.size() && has_only_statuses(active_set);
   if (const auto* friction = dynamic_cast<const FrictionLayout*>(active_set.layout().get()))
     return friction->contacts().size() == open.contacts() && active_set.size() == open.size() &&
-           std::all_of(active_set.begin(), active_set.end(), [](std::uint8_t closed) { return closed <= 1; });
+           has_only_statuses(active_set);
   const auto* layout = dynamic_cast<const SlidingContactLayout*>(active_set.layout().get());
   const auto* at_rest = dynamic_cast<const SlidingContactLayout*>(open.layout().get());
-  const auto is_status = [](std::uint8_t closed) { return closed <= 1; };
   const auto points = [](const SlidingContactLayout* on) { return on ? on->points().size() : 0; };
-  return active_set.size() + points(at_rest) == open.size() + points(layout) &&
-         std::all_of(active_set.begin(), active_set.end(), is_status);
+  return active_set.size() + points(at_rest) == open.size() + points(layout) && has_only_statuses(active_set);
 }
 
 }  // namespace

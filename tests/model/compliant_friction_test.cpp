@@ -312,56 +312,21 @@ theory = )";
 
 namespace {
 
-// A strip that a clamp at (0, sin 60°) points down to a floor, EI = 1, EA = 10⁴, of length 1 (f04 of the friction of
-// rigid walls); `stages` move the clamp down and along the floor, `mirrored` is the mirror image.
+std::string with(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
+// The strip of the friction of rigid walls (f04), which `stages` move down and along a compliant floor; `mirrored` is
+// the mirror image.
 std::string strip(double stiffness, double friction, const std::string& stages, bool mirrored = false) {
-  const double side = mirrored ? -1.0 : 1.0;
-  return fmt::format(R"(
-[material.m]
-E = 10000.0
-[section.s]
-shape = "general"
-A = 1.0
-I = 1e-4
-[point]
-clamp = [0.0, 0.8660254037844386]
-tip = [{}, 0.0]
-[member]
-strip = {{ from = "clamp", to = "tip", theory = "elastica", material = "m", section = "s", elements = 20 }}
-[support]
-clamp = ["rotation"]
-[[prescribed]]
-at = "clamp"
-z = -1.0
-[[prescribed]]
-at = "clamp"
-x = {}
-[contact]
-method = "compliant"
-law = {{ stiffness = {} }}
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = {{ type = "flat", z = 0.0 }}
-friction = {}
-[[monitor]]
-name = "x"
-at = "tip"
-component = "x"
-sign = {}
-[[monitor]]
-name = "T"
-wall = "floor"
-component = "friction-force"
-sign = {}
-[[monitor]]
-name = "p"
-wall = "floor"
-component = "force-z"
-)",
-                     0.5 * side, side, stiffness, friction, mirrored ? -1 : 1, mirrored ? -1 : 1) +
-         stages;
+  std::string text = friction_test::strip(friction, stages, "[[prescribed]]\nat = \"clamp\"\nx = 1.0\n");
+  if (mirrored) {
+    text = with(text, "tip = [0.5,", "tip = [-0.5,");
+    text = with(text, "\nx = 1.0\n", "\nx = -1.0\n");
+    for (const std::string component : {"component = \"x\"\n", "component = \"force-x\"\n"})
+      text = with(text, component, component + "sign = -1\n");
+  }
+  return text + fmt::format("[contact]\nmethod = \"compliant\"\nlaw = {{ stiffness = {} }}\n", stiffness);
 }
 
 const std::string down = stage("down", "prescribed.0", 0.02, -0.1, 0.4);
@@ -402,9 +367,8 @@ TEST(CompliantFriction, TendsToRigidFriction) {
 
 // The strip sticks, buckles and slips: λ turns where the last of its points begins to, and turns back on the slip.
 TEST(CompliantFriction, TurnsTheLoadWhereSlipRunsAway) {
-  std::string text = strip(1e5, 0.8, stage("down", "prescribed.0", 0.02, -0.1, 0.3));
-  text.replace(text.find("x = 1\n"), 6, "x = 0.0\nconstant = true\n");
-  const Session run = run_of(text);
+  const Session run = run_of(with(strip(1e5, 0.8, stage("down", "prescribed.0", 0.02, -0.1, 0.3)), "\nx = 1.0\n",
+                                  "\nx = 0.0\nconstant = true\n"));
   EXPECT_EQ(friction_test::lambdas(run, EventKind::contact_limit_point, 0).size(), 1u);
   EXPECT_EQ(friction_test::lambdas(run, EventKind::limit_point, 0).size(), 1u);
   EXPECT_EQ(friction_test::reason(run), EndReason::stop);
@@ -448,10 +412,6 @@ std::string refusal_of(const std::string& text) {
     return error.what();
   }
   return "";
-}
-
-std::string with(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
 }
 
 }  // namespace
