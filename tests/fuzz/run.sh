@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the fuzz targets and runs each for some seconds (20), two at a time; fails on a finding:
 #
-#   bash tests/fuzz/run.sh [SECONDS] [deck_text] [deck_model] [deck_path] [checkpoint]
+#   bash tests/fuzz/run.sh [SECONDS] [deck_text] [deck_model] [deck_path] [checkpoint] [command_line]
 #
 # What is learned stays in build/sanitize/fuzz/TARGET, where the next run begins. For millions of runs add to the time:
 # in a second of a core deck_text and checkpoint do some thousands, deck_model some hundreds, deck_path some tens.
@@ -11,7 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 seconds=${1:-20}
 shift || true
 targets=("$@")
-[[ ${#targets[@]} -gt 0 ]] || targets=(deck_text deck_model deck_path checkpoint)
+[[ ${#targets[@]} -gt 0 ]] || targets=(deck_text deck_model deck_path checkpoint command_line)
 
 options_of() {
   case "$1" in
@@ -19,8 +19,10 @@ options_of() {
     deck_model) echo "-max_len=100" ;;
     deck_path) echo "-max_len=200" ;;
     checkpoint) echo "-max_len=6000" ;;
+    command_line) echo "-max_len=60" ;;
     *)
-      echo "tests/fuzz/run.sh: no target is called \"$1\"; there are deck_text, deck_model, deck_path and checkpoint" >&2
+      echo "tests/fuzz/run.sh: no target is called \"$1\"; there are deck_text, deck_model, deck_path, checkpoint and" \
+        "command_line" >&2
       return 2
       ;;
   esac
