@@ -8,6 +8,7 @@
 
 #include "answers/contact_pattern.hpp"
 #include "core/nearly_equal.hpp"
+#include "core/root_find.hpp"
 #include "model/event_names.hpp"
 
 namespace arcwall {
@@ -24,13 +25,15 @@ std::pair<double, double> lambdas(const BranchMapSegment& segment, const Record&
   return std::minmax(record.points[segment.first].lambda, record.points[segment.last].lambda);
 }
 
-// dΠ/dλ along a path is ∂Π/∂λ: the unknowns do no work.
-double energy_slope(const Model& model, const State& state) {
-  const double d = 1e-4 * std::max(1.0, std::abs(state.lambda));
-  State ahead = state, behind = state;
-  ahead.lambda += d;
-  behind.lambda -= d;
-  return (model.energy(ahead) - model.energy(behind)) / (2.0 * d);
+// Just behind a point.
+const std::optional<RecordRates>& rates_behind(const RecordPoint& point) {
+  return point.rates_after ? point.rates_after : point.rates;
+}
+
+// dΠ/dλ where a segment begins; 0 where it is not known, or λ stands still.
+double slope_at_start(const RecordPoint& point) {
+  const std::optional<RecordRates>& rates = rates_behind(point);
+  return rates && rates->lambda != 0.0 ? rates->energy / rates->lambda : 0.0;
 }
 
 class Maker {
@@ -99,7 +102,6 @@ class Maker {
     made.unstable = inside.count.unstable;
     const auto events = events_at(first);
     if (!events.empty() && events.back()->unstable_after) made.unstable = events.back()->unstable_after;
-    for (std::size_t i = first; i <= last; ++i) made.slopes.push_back(energy_slope(model_, record_.points[i].state));
     return made;
   }
 
@@ -175,7 +177,7 @@ class Maker {
       if (map_.segments[i].branch != *event.branch_end->partner || i == *from) continue;
       const double lambda = std::clamp(last.lambda, low, high);
       const double off = std::abs(energy_at(map_.segments[i], record_, lambda) - last.energy) +
-                         std::abs(lambda - last.lambda) * std::abs(map_.segments[i].slopes.front());
+                         std::abs((lambda - last.lambda) * slope_at_start(record_.points[map_.segments[i].first]));
       if (off >= least) continue;
       least = off;
       nearest = i;
@@ -285,12 +287,17 @@ double energy_at(const BranchMapSegment& segment, const Record& record, double l
   std::size_t i = segment.first;
   while (i + 1 < segment.last && (record.points[i + 1].lambda < lambda) == grows) ++i;
   const RecordPoint &a = record.points[i], &b = record.points[i + 1];
-  const double h = b.lambda - a.lambda;
-  if (h == 0.0) return a.energy;
-  const double t = (lambda - a.lambda) / h, u = 1.0 - t;
-  const double slope_a = segment.slopes[i - segment.first], slope_b = segment.slopes[i + 1 - segment.first];
-  return u * u * (1.0 + 2.0 * t) * a.energy + t * t * (3.0 - 2.0 * t) * b.energy +
-         h * t * u * (u * slope_a - t * slope_b);
+  const double length = b.arc - a.arc, straight = b.lambda - a.lambda;
+  const std::optional<RecordRates>&from = rates_behind(a), &to = b.rates;
+  if (from && to && length > 0.0) {
+    const double off = a.lambda - lambda, from_rate = length * from->lambda, to_rate = length * to->lambda;
+    if (const auto t = off == 0.0 ? std::optional(0.0) : first_cubic_zero(off, from_rate, b.lambda - lambda, to_rate)) {
+      const double u = 1.0 - *t;
+      return u * u * (1.0 + 2.0 * *t) * a.energy + *t * *t * (3.0 - 2.0 * *t) * b.energy +
+             length * *t * u * (u * from->energy - *t * to->energy);
+    }
+  }
+  return straight == 0.0 ? a.energy : a.energy + (lambda - a.lambda) / straight * (b.energy - a.energy);
 }
 
 }  // namespace arcwall

@@ -16,8 +16,7 @@ struct BranchMapSegment {
   std::size_t first = 0, last = 0;  ///< points of the record at its ends, `first` met first
   std::string contact_pattern{};    ///< its contacts, as of a jump
   std::optional<Index> unstable{};
-  std::vector<Index> images{};   ///< branches on which an image of it in a mirror lies, which is no segment of its own
-  std::vector<double> slopes{};  ///< of the energy by λ at its points [force·length]
+  std::vector<Index> images{};  ///< branches on which an image of it in a mirror lies, which is no segment of its own
 };
 
 /// What leads from one segment to another.
@@ -46,7 +45,7 @@ struct BranchMap {
 /// Empty for a run in load increments or in stages. `record` is a run of `model`.
 BranchMap branch_map_of(const Model& model, const Record& record);
 
-/// The energy of a segment at a λ of its range, by a cubic through its points with their slopes.
+/// The energy of a segment at a λ of its range, by the cubics of energy and λ between its points along the path.
 double energy_at(const BranchMapSegment& segment, const Record& record, double lambda);
 
 }  // namespace arcwall

@@ -80,20 +80,24 @@ void Structure::arrange() {
       element_order(elements_, assembly_, [&](Index e) { return any_displaced && element_dofs(e).any(is_displaced); });
 }
 
-double Structure::evaluate(const Element& element, Index block, const State& state, Local& out,
-                           bool with_derivatives) const {
+void Structure::gather(Index block, const State& state, double* u) const {
+  const ShiftedIndices unknowns = assembly_.unknowns(block), dofs = element_dofs(block);
+  for (std::size_t i = 0; i < unknowns.size(); ++i)
+    u[i] = unknowns[i] >= 0 ? state.x[unknowns[i]] : nodal_.support(dofs[i]).at(state.lambda);
+}
+
+void Structure::evaluate(const Element& element, Index block, const State& state, Local& out,
+                         bool with_derivatives) const {
+  gather(block, state, out.u);
   const ShiftedIndices unknowns = assembly_.unknowns(block), dofs = element_dofs(block);
   const std::size_t n = unknowns.size();
-  for (std::size_t i = 0; i < n; ++i)
-    out.u[i] = unknowns[i] >= 0 ? state.x[unknowns[i]] : nodal_.support(dofs[i]).at(state.lambda);
-  const double energy = element.evaluate_at(out.u, state.lambda, out.f, with_derivatives ? out.K : nullptr,
-                                            with_derivatives ? out.f_lambda : nullptr);
+  element.evaluate_at(out.u, state.lambda, out.f, with_derivatives ? out.K : nullptr,
+                      with_derivatives ? out.f_lambda : nullptr);
   for (std::size_t h = 0; h < n && with_derivatives; ++h) {
     if (unknowns[h] >= 0) continue;
     const double rate = held_rate(dofs[h]);
     for (std::size_t i = 0; i < n; ++i) out.f_lambda[i] += out.stiffness(i, h, n) * rate;
   }
-  return energy;
 }
 
 void Structure::add_driven(const Element& element, Index block, const State& state, double* F, double* K,
@@ -215,11 +219,14 @@ void Structure::linearize(const State& state, Linearization& out) const {
 }
 
 double Structure::energy(const State& state) const {
-  Local local;
-  double energy = 0.0;
-  for (Index e = 0; e < element_count(); ++e) energy += evaluate(elements_[e], e, state, local, false);
+  double u[Element::max_unknowns], energy = 0.0;
+  const auto add = [&](const Element& element, Index block) {
+    gather(block, state, u);
+    energy += element.evaluate_at(u, state.lambda, nullptr, nullptr, nullptr);
+  };
+  for (Index e = 0; e < element_count(); ++e) add(elements_[e], e);
   for (const ElementLoad& load : element_loads_)
-    if (load.acts_on(state)) energy += evaluate(*load.potential, load.element, state, local, false);
+    if (load.acts_on(state)) add(*load.potential, load.element);
   return energy + nodal_.energy(state.lambda, [&](Index dof) { return value(state, dof); });
 }
 

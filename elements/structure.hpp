@@ -224,12 +224,13 @@ class Structure final : public System {
   double weight(Dof kind) const;  // in the path metric
   template <class ValueOf>
   std::unique_ptr<Structure> updated_at(const ValueOf& value_of) const;
-  std::vector<bool> translation_free() const;                  // see Linearization
-  void gather(Index block, const Vector& x, double* u) const;  // held degrees of freedom 0
+  std::vector<bool> translation_free() const;                     // see Linearization
+  void gather(Index block, const Vector& x, double* u) const;     // held degrees of freedom 0
+  void gather(Index block, const State& state, double* u) const;  // held ones at their values
   struct Local;
-  // Evaluates an element with its held degrees of freedom at their values. If derivatives are asked for, `f_lambda` is
+  // Evaluates an element, its held degrees of freedom at their values. If derivatives are asked for, `f_lambda` is
   // that at fixed unknowns, to which the rates of held degrees of freedom belong.
-  double evaluate(const Element& element, Index block, const State& state, Local& out, bool with_derivatives) const;
+  void evaluate(const Element& element, Index block, const State& state, Local& out, bool with_derivatives) const;
   // Adds an element that depends on λ. Where K is not null, its stiffness goes to the values of K's matrix.
   void add_driven(const Element& element, Index block, const State& state, double* F, double* K,
                   double* F_lambda) const;
