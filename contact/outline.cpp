@@ -79,9 +79,10 @@ class CircleOutline final : public Outline {
 // slope: ∇d = n, ∇φ = κ t, ∇κ = κ′ t + κ² n, and ∂t/∂r = κ n tᵀ.
 class OutlineObstacle final : public Obstacle {
  public:
-  OutlineObstacle(std::shared_ptr<const Outline> outline, double half_height)
+  OutlineObstacle(std::shared_ptr<const Outline> outline, double half_height, double retracted)
       : outline_(std::move(outline)),
         half_height_(half_height),
+        retracted_(retracted),
         knots_(outline_->knots()),
         jumps_(jumps_of(*outline_, half_height)) {}
 
@@ -93,22 +94,23 @@ class OutlineObstacle final : public Obstacle {
   }
 
   // ∇∇d = −κ t tᵀ
-  QuadraticField gap(const Vec2& position, double) const override {
+  QuadraticField gap(const Vec2& position, double lambda) const override {
     const OutlineFoot at = outline_->foot(position);
     const Vec2 n = perp(at.tangent), t = at.tangent;
-    return {.value = at.distance - half_height_,
+    return {.value = at.distance - distance_off(lambda),
             .x = n.x(),
             .z = n.y(),
             .xx = -at.curvature * t.x() * t.x(),
             .xz = -at.curvature * t.x() * t.y(),
-            .zz = -at.curvature * t.y() * t.y()};
+            .zz = -at.curvature * t.y() * t.y(),
+            .rate = -retracted_};
   }
 
-  LinearField gap_slope(const Vec2& position, double) const override {
+  LinearField gap_slope(const Vec2& position, double lambda) const override {
     const OutlineFoot at = outline_->foot(position);
     if (at.beyond) return {.value = infinity};
     const Vec2 n = perp(at.tangent);
-    return {.value = at.distance - half_height_, .x = n.x(), .z = n.y()};
+    return {.value = at.distance - distance_off(lambda), .x = n.x(), .z = n.y(), .rate = -retracted_};
   }
 
   // ∇∇φ = κ′ t tᵀ + κ² (t nᵀ + n tᵀ)
@@ -124,22 +126,24 @@ class OutlineObstacle final : public Obstacle {
             .zz = slope * t.y() * t.y() + 2.0 * k * k * t.y() * n.y()};
   }
 
-  // Of the curve at the distance of half the height, from that of the one through the position: κ/(1 + κ g), which does
-  // not change across the curves.
-  LinearField curvature(const Vec2& position, double) const override {
+  // Of the surface, from that of the parallel curve through the position: κ/(1 + κ g), which does not change across the
+  // curves. Its rate at a fixed position is −(κ/(1 + κ g))² ∂g/∂λ.
+  LinearField curvature(const Vec2& position, double lambda) const override {
     const OutlineFoot at = outline_->foot(position);
-    const double shrink = 1.0 / (1.0 + at.curvature * (at.distance - half_height_));
+    const double shrink = 1.0 / (1.0 + at.curvature * (at.distance - distance_off(lambda)));
     const Vec2 slope = at.curvature_slope * shrink * shrink * at.tangent;
-    return {.value = at.curvature * shrink, .x = slope.x(), .z = slope.y()};
+    const double curvature = at.curvature * shrink;
+    return {.value = curvature, .x = slope.x(), .z = slope.y(), .rate = curvature * curvature * retracted_};
   }
 
   double curvature_second(const Vec2& position, double) const override {
     return outline_->foot(position).curvature_second;
   }
 
-  double clearance(const Vec2& position, double) const override {
+  double clearance(const Vec2& position, double lambda) const override {
     const OutlineFoot at = outline_->foot(position);
-    return at.beyond ? std::max(at.from_end - half_height_, 0.0) : std::abs(at.distance - half_height_);
+    const double off = distance_off(lambda);
+    return at.beyond ? std::max(at.from_end - off, 0.0) : std::abs(at.distance - off);
   }
 
   double along(const Vec2& position, double) const override { return outline_->foot(position).along; }
@@ -147,7 +151,7 @@ class OutlineObstacle final : public Obstacle {
   // σ − h φ, with σ the arc length and φ the direction of the outline, h half the height: the length of the parallel
   // curve. With w = 1/(1 − κ d) for the curvature κ of the outline: ∇σ = w t, ∇w = w² (d ∇κ + κ n), κ w the curvature
   // of the curve through the position.
-  QuadraticField arc_length(const Vec2& position, double) const override {
+  QuadraticField arc_length(const Vec2& position, double lambda) const override {
     const OutlineFoot at = outline_->foot(position);
     const Vec2 n = perp(at.tangent), t = at.tangent;
     const double w = 1.0 + at.curvature * at.distance;
@@ -158,11 +162,15 @@ class OutlineObstacle final : public Obstacle {
                           .xx = t.x() * w_slope.x() + w * at.curvature * n.x() * t.x(),
                           .xz = t.x() * w_slope.y() + w * at.curvature * n.x() * t.y(),
                           .zz = t.y() * w_slope.y() + w * at.curvature * n.y() * t.y()};
-    if (half_height_ == 0.0) return length;
-    const QuadraticField turned = direction(position, 0.0);
+    if (half_height_ == 0.0 && retracted_ == 0.0) return length;
+    const double off = distance_off(lambda);
+    const QuadraticField turned = direction(position, lambda);
     for (double QuadraticField::*part : {&QuadraticField::value, &QuadraticField::x, &QuadraticField::z,
                                          &QuadraticField::xx, &QuadraticField::xz, &QuadraticField::zz})
-      length.*part -= half_height_ * turned.*part;
+      length.*part -= off * turned.*part;
+    length.rate = -retracted_ * turned.value;
+    length.x_rate = -retracted_ * turned.x;
+    length.z_rate = -retracted_ * turned.z;
     return length;
   }
   double round_length() const override {
@@ -176,6 +184,7 @@ class OutlineObstacle final : public Obstacle {
   bool has_other_sides() const override { return !knots_.empty(); }
   std::optional<Vec2> core() const override { return outline_->core(); }
   double half_height() const override { return half_height_; }
+  double greatest_speed(double) const override { return retracted_; }
 
   std::span<const CurvatureRateJump> curvature_rate_jumps() const override { return jumps_; }
 
@@ -185,6 +194,9 @@ class OutlineObstacle final : public Obstacle {
   }
 
  private:
+  // How far the surface is from the outline.
+  double distance_off(double lambda) const { return half_height_ + (lambda - 1.0) * retracted_; }
+
   // Of the parallel curve, whose curvature is κ/(1 − κ h) and whose length is 1 − κ h times as long.
   static std::vector<CurvatureRateJump> jumps_of(const Outline& outline, double half_height) {
     std::vector<CurvatureRateJump> jumps = outline.curvature_rate_jumps();
@@ -198,15 +210,15 @@ class OutlineObstacle final : public Obstacle {
   }
 
   std::shared_ptr<const Outline> outline_;
-  double half_height_;
+  double half_height_, retracted_;
   std::vector<double> knots_;
   std::vector<CurvatureRateJump> jumps_;
 };
 
 }  // namespace
 
-std::shared_ptr<const Obstacle> obstacle(std::shared_ptr<const Outline> outline, double half_height) {
-  return std::make_shared<OutlineObstacle>(std::move(outline), half_height);
+std::shared_ptr<const Obstacle> obstacle(std::shared_ptr<const Outline> outline, double half_height, double retracted) {
+  return std::make_shared<OutlineObstacle>(std::move(outline), half_height, retracted);
 }
 
 std::unique_ptr<Outline> half_plane_outline(const Vec2& point, const Vec2& normal) {

@@ -56,10 +56,13 @@ class Outline {
 
 /// An obstacle with such an outline for a body whose axis stays at a distance from it, half its height or 0:
 ///
-///     g = d(r) − half_height
+///     g = d(r) − half_height + (1 − λ) retracted
 ///
-/// with d the signed distance. Its surface is the curve parallel to the outline on which the axis would lie.
-std::shared_ptr<const Obstacle> obstacle(std::shared_ptr<const Outline> outline, double half_height = 0.0);
+/// with d the signed distance. Its surface is the curve parallel to the outline on which the axis would lie. With
+/// `retracted` > 0 the surface begins so far behind its place, along all its normals, and comes to it with λ from 0 to
+/// 1; the outline must have no radius as small, and no jump of the rate of its curvature [length].
+std::shared_ptr<const Obstacle> obstacle(std::shared_ptr<const Outline> outline, double half_height = 0.0,
+                                         double retracted = 0.0);
 
 /// On which side of a closed outline the body stays.
 enum class Keep { outside, inside };

@@ -58,6 +58,8 @@ std::string how_to_part(const deck::Wall& wall, const Penetration& found) {
                      above ? "above" : "below", above ? "below" : "above", above ? "below" : "above", apart);
 }
 
+constexpr double drawn_to = 1e-6;  // of the structure's length: what the digits of a deck leave open
+
 // A point of the structure that touches a wall at rest.
 struct TouchAtRest {
   const deck::Wall* wall;
@@ -227,7 +229,8 @@ std::unique_ptr<Outline> outline_of(const deck::Wall& wall) {
 
 std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall, double half_height) {
   std::shared_ptr<const Obstacle> at_rest =
-      wall.outline ? obstacle(std::shared_ptr(outline_of(wall)), half_height) : obstacle(profile_of(wall), wall.side);
+      wall.outline ? obstacle(std::shared_ptr(outline_of(wall)), half_height, wall.retracted)
+                   : obstacle(profile_of(wall), wall.side);
   const RigidMotion motion = motion_of(wall);
   if (motion.is_none()) return at_rest;
   return std::make_shared<MovingObstacle>(std::move(at_rest), motion);
@@ -445,7 +448,8 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
         }
       }
     }
-    if (deepest.depth > wall.interference + round_off)
+    const double rounded = wall.interference > 0.0 ? drawn_to * structure.length_scale() : round_off;
+    if (deepest.depth > wall.interference + rounded)
       problems.add(
           wall.position, "wall." + wall.name,
           fmt::format("member \"{}\" is inside the wall at the start: node {}:{:.4g} by {:.9g}{}{}",
@@ -454,29 +458,30 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
                       wall.interference > 0.0 ? ", more than its interference" : ""),
           wall.interference > 0.0 ? "give it a greater interference, or move the wall" : how_to_part(wall, deepest));
   }
-  constexpr double near = 1e-6;  // of the structure's length
-  join_opposite(touches, known, near * structure.length_scale(), candidates, problems);
+  join_opposite(touches, known, drawn_to * structure.length_scale(), candidates, problems);
   std::move(held.begin(), held.end(), std::back_inserter(candidates));
   return candidates;
 }
 
 namespace {
 
-// The normal of a wall into the free side where the stress-free structure is deepest in it, or nearest to it: at nodes
-// and between them, where a wall may be narrower than an element.
-Vec2 way_out(const deck::Wall& wall, const Structure& structure) {
+// Where the stress-free structure is deepest in a wall, or nearest to it: at nodes and between them, where a wall may
+// be narrower than an element.
+struct LeastGap {
+  double gap = infinity;
+  Vec2 normal = Vec2::Zero();  ///< of the wall there, into the free side
+};
+
+LeastGap least_gap(const deck::Wall& wall, const Structure& structure) {
   constexpr int parts = 100;  // of an element
   const State rest{.x = Vector::Zero(structure.size({}))};
-  double least = infinity;
-  Vec2 normal = Vec2::Zero();
+  LeastGap least;
   for (const MemberMesh& mesh : structure.members()) {
     if (!concerns(wall, mesh.name)) continue;
     std::shared_ptr<const Obstacle> obstacle;
     const auto look_at = [&](const Vec2& place) {
       const LinearField gap = obstacle->gap_slope(place, 0.0);
-      if (!(gap.value < least)) return;
-      least = gap.value;
-      normal = Vec2(gap.x, gap.z).normalized();
+      if (gap.value < least.gap) least = {.gap = gap.value, .normal = Vec2(gap.x, gap.z).normalized()};
     };
     std::vector<Vec2> before;
     double off = -1.0;
@@ -493,7 +498,15 @@ Vec2 way_out(const deck::Wall& wall, const Structure& structure) {
       before = std::move(here);
     }
   }
-  return normal;
+  return least;
+}
+
+// The least radius of curvature of a circle or an ellipse.
+double least_radius(const deck::Outline& outline) {
+  if (const auto* circle = std::get_if<deck::CircleOutline>(&outline)) return circle->radius;
+  const auto [narrow, wide] =
+      std::minmax(std::get<deck::EllipseOutline>(outline).axes.x, std::get<deck::EllipseOutline>(outline).axes.z);
+  return narrow * narrow / wide;
 }
 
 }  // namespace
@@ -502,8 +515,16 @@ deck::Deck with_walls_of_ramp(deck::Deck deck, const Structure& structure) {
   for (deck::Wall& wall : deck.walls) {
     wall.motion.reset();
     if (wall.interference == 0.0) continue;
-    const Vec2 way = wall.interference * way_out(wall, structure);
-    wall.motion = deck::WallMotion{.x = way.x(), .z = way.y(), .progress = {.constant = -1.0, .proportional = 1.0}};
+    const double drawn = drawn_to * structure.length_scale();
+    const LeastGap deepest = least_gap(wall, structure);
+    const double back =
+        -deepest.gap <= wall.interference + drawn ? std::max(wall.interference, -deepest.gap) : wall.interference;
+    if (!deck::has_friction(deck) && is_enclosed(deck, wall) && back < least_radius(*wall.outline))
+      wall.retracted = back;
+    else
+      wall.motion = deck::WallMotion{.x = back * deepest.normal.x(),
+                                     .z = back * deepest.normal.y(),
+                                     .progress = {.constant = -1.0, .proportional = 1.0}};
   }
   return deck;
 }

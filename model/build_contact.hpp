@@ -65,7 +65,7 @@ std::vector<std::uint8_t> stand_for_members(const Structure& structure, const st
 
 /// The deck with its walls as they are while what is constant grows with λ from 0 to 1: at rest, but for those with an
 /// interference, which come to their places. Such a wall comes along its normal where the stress-free structure is
-/// deepest in it.
+/// deepest in it; one that is_enclosed() comes along all its normals.
 deck::Deck with_walls_of_ramp(deck::Deck deck, const Structure& structure);
 
 /// Whether the same walls concern two members.

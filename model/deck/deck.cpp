@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "contact/outline.hpp"
@@ -337,6 +338,30 @@ std::string why_tapers_hold_contact(const Deck& deck) {
   return {};
 }
 
+bool is_enclosed(const Deck& deck, const Wall& wall) {
+  const auto* circle = wall.outline ? std::get_if<CircleOutline>(&*wall.outline) : nullptr;
+  const auto* ellipse = wall.outline ? std::get_if<EllipseOutline>(&*wall.outline) : nullptr;
+  if ((circle == nullptr && ellipse == nullptr) || (circle ? circle->keep : ellipse->keep) != Keep::outside)
+    return false;
+  const Vector& centre = circle ? circle->centre : ellipse->centre;
+  std::vector<double> directions;  // in which its centre sees the points
+  const auto add = [&](const Vector& at) { directions.push_back(std::atan2(at.z - centre.z, at.x - centre.x)); };
+  std::set<std::string> ends;
+  for (const Member& member : deck.members) {
+    if (!wall.members.empty() && std::find(wall.members.begin(), wall.members.end(), member.name) == wall.members.end())
+      continue;
+    ends.insert({member.from, member.to});
+    if (const auto* arc = std::get_if<Arc>(&member.axis)) add(arc->via);
+  }
+  for (const Point& point : deck.points)
+    if (ends.contains(point.name)) add(point.at);
+  if (directions.empty()) return false;
+  std::sort(directions.begin(), directions.end());
+  double widest = directions.front() + 2.0 * pi - directions.back();
+  for (std::size_t i = 1; i < directions.size(); ++i) widest = std::max(widest, directions[i] - directions[i - 1]);
+  return widest < pi;
+}
+
 PointsOfContact points_of_contact(const Deck& deck) {
   if (deck.contact.points) return {.points = *deck.contact.points, .why = "as contact.points says"};
   if (deck.contact.is_compliant())
@@ -354,6 +379,10 @@ PointsOfContact points_of_contact(const Deck& deck) {
                      member.name + " is of theory " + text_of(theory_words, member.theory)};
   if (std::string why = why_tapers_hold_contact(deck); !why.empty())
     return {.points = ContactPoints::nodes, .why = std::move(why)};
+  for (const Wall& wall : deck.walls)
+    if (wall.interference > 0.0 && is_enclosed(deck, wall))
+      return {.points = ContactPoints::nodes,
+              .why = "members lie around wall " + wall.name + ", which grows into place"};
   const WallsWithoutClearance without_clearance(deck);
   for (std::size_t i = 0; i < deck.walls.size(); ++i)
     for (const std::size_t k : without_clearance.beside(i))

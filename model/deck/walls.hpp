@@ -162,6 +162,7 @@ struct Wall {
   double corner_radius = 0.0;          ///< of all corners of a polyline [length]
   std::vector<double> corner_radii{};  ///< of each corner in turn [length]; empty: corner_radius
   double interference = 0.0;           ///< so far it begins moved back from the structure [length]
+  double retracted = 0.0;  ///< so far its outline begins behind its place and comes with λ; no key of a deck [length]
   std::optional<WallMotion> motion{};
   double friction = 0.0;         ///< coefficient μ of Coulomb friction ≥ 0 [-]
   std::optional<WallLaw> law{};  ///< of a compliant wall; empty: that of all walls

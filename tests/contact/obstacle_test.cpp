@@ -57,6 +57,8 @@ std::vector<Named> all_outlines() {
       if (name == "corner" && half_height == 0.0) continue;  // on which no axis may lie
       const std::string kind = name + (half_height > 0.0 ? " off its face" : "");
       all.push_back({kind, obstacle(outline, half_height)});
+      if (outline->is_smooth() && outline->curvature_rate_jumps().empty())
+        all.push_back({kind + " that comes to its place", obstacle(outline, half_height, 0.25)});
       const RigidMotion motion{.way = {0.03, -0.04}, .turn = 0.02, .about = {0.5, -0.1}};
       all.push_back({kind + " that moves", std::make_shared<MovingObstacle>(obstacle(outline, half_height), motion)});
     }
