@@ -38,7 +38,8 @@ if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=cc
 # Without a home ccache needs another place for its files.
 if [[ -z ${HOME:-} ]]; then export CCACHE_DIR=${CCACHE_DIR:-$PWD/build/ccache}; fi
 cmake -S . -B "$folder" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DARCWALL_BUILD_APPS=ON \
-  -DARCWALL_BUILD_TESTS=OFF -DARCWALL_BUILD_BENCHMARKS=ON "${launcher[@]}"
+  -DARCWALL_BUILD_TESTS=OFF -DARCWALL_BUILD_BENCHMARKS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 \
+  "${launcher[@]}"
 cmake --build "$folder" --parallel 2 --target trace-path benchmarks
 
 python3 benchmarks/suite.py "$folder" "${options[@]}"
