@@ -4,7 +4,8 @@
 #   bash tests/fuzz/run.sh [SECONDS] [deck_text] [deck_model] [deck_path] [checkpoint] [command_line]
 #
 # What is learned stays in build/sanitize/fuzz/TARGET, where the next run begins. For millions of runs add to the time:
-# in a second of a core deck_text and checkpoint do some thousands, deck_model some hundreds, deck_path some tens.
+# in a second of a core deck_text and checkpoint do some thousands, deck_model and command_line
+# some hundreds, deck_path some tens.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -19,7 +20,7 @@ options_of() {
     deck_model) echo "-max_len=100" ;;
     deck_path) echo "-max_len=200" ;;
     checkpoint) echo "-max_len=6000" ;;
-    command_line) echo "-max_len=60" ;;
+    command_line) echo "-max_len=60 -len_control=0" ;;
     *)
       echo "tests/fuzz/run.sh: no target is called \"$1\"; there are deck_text, deck_model, deck_path, checkpoint and" \
         "command_line" >&2
