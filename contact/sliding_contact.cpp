@@ -332,10 +332,19 @@ double SlidingContact::round_length(const ActiveSet& active_set, Index j) const 
   return obstacles()[touch.obstacle].surface->round_length();
 }
 
-// As many contacts are the same ones.
-std::optional<Index> SlidingContact::contact_before(const State& state, Index j, const State& before) const {
-  if (state.active_set.contacts() == before.active_set.contacts()) return j;
-  return sliding::nearest_rubbing(*setting_, SlidingState(state), static_cast<std::size_t>(j), SlidingState(before));
+double SlidingContact::slip_since(const State& event, const State& state, Index j) const {
+  return sliding::slip_since(*setting_, SlidingState(event), SlidingState(state), static_cast<std::size_t>(j));
+}
+
+std::optional<Index> SlidingContact::counterpart(const State& state, Index j, const State& other) const {
+  const SlidingState at(state), there(other);
+  const bool has_same_mesh = at.mesh.elements_per_segment() == there.mesh.elements_per_segment();
+  if (at.contacts() == there.contacts() && (has_same_mesh || sliding::has_same_contacts(at, there))) return j;
+  return sliding::nearest_rubbing(*setting_, at, static_cast<std::size_t>(j), there);
+}
+
+bool SlidingContact::rolls(const ActiveSet& active_set, Index j) const {
+  return j < static_cast<Index>(sliding_layout(active_set).points().size());
 }
 
 ContactPlace SlidingContact::place(const State& state, Index j) const {

@@ -83,7 +83,13 @@ class SlidingContact final : public System, public ContactQuery, public Friction
   /// The length of a closed obstacle's round that contact j may touch, 0 of one that is not closed [length].
   double round_length(const ActiveSet& active_set, Index j) const;
 
-  std::optional<Index> contact_before(const State& state, Index j, const State& before) const override;
+  double slip_since(const State& event, const State& state, Index j) const override;
+
+  /// Returns the contact with friction of another state on the path that is nearest along the body to contact j of a
+  /// state, on the same obstacle: j itself where both have the same contacts; empty if there is none.
+  std::optional<Index> counterpart(const State& state, Index j, const State& other) const;
+
+  bool rolls(const ActiveSet& active_set, Index j) const override;
   ContactPlace place(const State& state, Index j) const override;
   ContactPlace place_rates(const State& state, const Direction& direction, Index j) const override;
   std::optional<Index> force_index(const ActiveSet& active_set, Index j) const override;

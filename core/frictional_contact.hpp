@@ -12,7 +12,7 @@ namespace arcwall {
 
 /// How a contact with friction moves along both sides: it is held at the place w of the obstacle, and where contact
 /// moves along the body at the material coordinate s. A length of the body that contact has passed is `stretch` times
-/// that of its axis, so that it slips by dw − Λ ds. At a material point s and Λ are 0.
+/// that of its axis, so that it slips by dw − Λ ds. A material point slips by dw (FrictionalContact::rolls()).
 struct ContactPlace {
   double w = 0.0;        ///< along the obstacle's tangent [length]
   double s = 0.0;        ///< in that sense [length]
@@ -63,9 +63,12 @@ class FrictionalContact {
   /// Returns how far a closed contact with friction has slipped along the obstacle since it closed [length].
   virtual double slip(const State& state, Index j) const = 0;
 
-  /// Returns the contact of an earlier state from which contact j of a state has come, where active sets have other
-  /// contacts; empty if none is known.
-  virtual std::optional<Index> contact_before(const State&, Index j, const State& /*before*/) const { return j; }
+  /// Returns how far contact j of a state, which slips, has slipped since an event between which and the state contacts
+  /// have parted, come together or moved to ends; 0 where they are the same [length].
+  virtual double slip_since(const State& /*event*/, const State& /*state*/, Index /*j*/) const { return 0.0; }
+
+  /// Returns true if contact j moves along the body, false if it is a node or an end of a member.
+  virtual bool rolls(const ActiveSet&, Index /*j*/) const { return false; }
 
   /// Returns where a closed contact with friction is, and the rates along a direction.
   virtual ContactPlace place(const State& state, Index j) const = 0;

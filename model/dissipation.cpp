@@ -21,7 +21,8 @@ std::vector<RecordSlip> slips_along(const FrictionalContact* contacts, const Sta
                      .force = contacts->friction_force(state, j),
                      .force_rate = direction.dx[*contacts->friction_index(state.active_set, j)],
                      .place = in_users_unit(contacts->place(state, j)),
-                     .rates = in_users_unit(contacts->place_rates(state, direction, j))});
+                     .rates = in_users_unit(contacts->place_rates(state, direction, j)),
+                     .rolls = contacts->rolls(state.active_set, j)});
   return slips;
 }
 
@@ -36,20 +37,16 @@ double dissipated(const RecordSlip& from, const RecordSlip& to, double arc_lengt
   const HermiteCubic T = cubic(from.force, from.force_rate, to.force, to.force_rate);
   const HermiteCubic w = of_place(&ContactPlace::w), s = of_place(&ContactPlace::s),
                      stretch = of_place(&ContactPlace::stretch);
-  const bool rolls = from.rates.s != 0.0 || to.rates.s != 0.0;  // an end stays, whichever way its body turns
   double sum = 0.0;
   for (const auto& [u, weight] : gauss_of_cubics)
-    sum -= weight * T.value(u) * (w.slope(u) - (rolls ? stretch.value(u) * s.slope(u) : 0.0));
+    sum -= weight * T.value(u) * (w.slope(u) - (from.rolls ? stretch.value(u) * s.slope(u) : 0.0));
   return std::max(sum, 0.0);
 }
 
 void add_dissipated_before(const FrictionalContact& contacts, const State& event, const State& first, double unit,
                            std::vector<RecordSlip>& slips) {
   for (RecordSlip& slip : slips)
-    if (const auto before = contacts.contact_before(first, slip.contact, event)) {
-      const double way = contacts.slip(first, slip.contact) - contacts.slip(event, *before);
-      slip.before = std::max(-slip.force * unit * way, 0.0);
-    }
+    slip.before = std::max(-slip.force * unit * contacts.slip_since(event, first, slip.contact), 0.0);
 }
 
 Index slipping_contacts(const RecordPoint& point) {

@@ -16,7 +16,7 @@ std::vector<RecordSlip> slips_along(const FrictionalContact* contacts, const Sta
 double dissipated(const RecordSlip& from, const RecordSlip& to, double arc_length);
 
 /// What contacts that slip at the first point of an active set, `slips` there, have dissipated since an event at which
-/// they had other unknowns. `unit`: that of lengths.
+/// contacts have parted, come together or moved to ends. `unit`: that of lengths.
 void add_dissipated_before(const FrictionalContact& contacts, const State& event, const State& first, double unit,
                            std::vector<RecordSlip>& slips);
 

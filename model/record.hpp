@@ -37,6 +37,7 @@ struct RecordSlip {
   double force_rate = 0.0;
   ContactPlace place{};  ///< [length]
   ContactPlace rates{};
+  bool rolls = false;   ///< along the member: else it is a node or an end, and slips by dw
   double before = 0.0;  ///< what it has dissipated between the point and where its active set begins [force·length]
 
   friend bool operator==(const RecordSlip&, const RecordSlip&) = default;

@@ -30,7 +30,7 @@ void parts(Archive& archive, RecordFrictionWay& way) {
 template <typename Archive>
 void parts(Archive& archive, RecordSlip& slip) {
   archive(slip.contact, slip.force, slip.force_rate, slip.place.w, slip.place.s, slip.place.stretch, slip.rates.w,
-          slip.rates.s, slip.rates.stretch, slip.before);
+          slip.rates.s, slip.rates.stretch, slip.rolls, slip.before);
 }
 
 template <typename Archive>

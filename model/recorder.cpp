@@ -172,7 +172,7 @@ std::vector<double> dissipated_elastically(const Model& model, const State& stat
 std::vector<RecordSlip> Recorder::slips_behind(const State& event, const PathPoint& behind) const {
   const double unit = model_->frame().factor();
   std::vector<RecordSlip> slips = slips_along(model_->friction(), behind.state, behind.tangent, unit);
-  if (event.active_set.contacts() != behind.state.active_set.contacts())
+  if (event.active_set != behind.state.active_set)
     add_dissipated_before(*model_->friction(), event, behind.state, unit, slips);
   return slips;
 }
@@ -189,13 +189,13 @@ std::vector<double> Recorder::dissipation_until(const PathTangent& arrives, cons
     return deck::find(walls, model_->contacts()->contact(state, contact).label.wall) - walls.data();
   };
   const auto slips = slips_along(model_->friction(), arrives.state, arrives.tangent, model_->frame().factor());
-  for (const RecordSlip& from : before.slips)
-    for (const RecordSlip& at : slips) {
-      if (from.contact != at.contact) continue;
-      const auto wall = wall_of(arrives.state, at.contact);
-      sums[static_cast<std::size_t>(wall)] += from.before + dissipated(from, at, to.arc - before.arc);
-    }
-  if (to.state.active_set.contacts() == arrives.state.active_set.contacts()) return sums;
+  // Points that a step inserts are open: what slips has other numbers then, but the same order.
+  for (std::size_t i = 0; i < slips.size() && slips.size() == before.slips.size(); ++i) {
+    const auto wall = wall_of(arrives.state, slips[i].contact);
+    sums[static_cast<std::size_t>(wall)] +=
+        before.slips[i].before + dissipated(before.slips[i], slips[i], to.arc - before.arc);
+  }
+  if (to.state.active_set == arrives.state.active_set) return sums;
   for (const RecordSlip& behind : slips_behind(arrives.state, to))
     sums[static_cast<std::size_t>(wall_of(to.state, behind.contact))] += behind.before;
   return sums;

@@ -152,36 +152,49 @@ Rate work_rate(const Model& model, const State& state, double longest) {
   return rate;
 }
 
-// −∫ T (dw − Λ ds) of the contacts that move along members, and of the ends of these. Where unknowns change at a point
-// of the path, the other side of that has more contacts or fewer: those that have come from one share its force.
+// The friction force of each contact of a piece at one of its points. At the last one contacts may have come together,
+// parted or moved to ends: those that have become one share its force, and one that has parted has that of all.
+std::map<Index, double> friction_forces(const SlidingContact& contacts, const State& within, const State& at) {
+  const auto rubbing = [](const State& state) {
+    std::vector<Index> found;
+    for (Index j = 0; j < static_cast<Index>(state.active_set.contacts()); ++j)
+      if (rubs(state.active_set, static_cast<std::size_t>(j))) found.push_back(j);
+    return found;
+  };
+  std::map<Index, std::vector<Index>> have_become;  // of each contact there those of the piece
+  for (const Index j : rubbing(within))
+    if (const auto there = contacts.counterpart(within, j, at)) have_become[*there].push_back(j);
+  std::map<Index, double> forces;
+  for (const Index i : rubbing(at)) {
+    const double T = contacts.friction_force(at, i);
+    const auto known = have_become.find(i);
+    if (known == have_become.end()) {
+      if (const auto from = contacts.counterpart(at, i, within)) forces[*from] += T;
+      continue;
+    }
+    for (const Index j : known->second) forces[j] += T / double(known->second.size());
+  }
+  return forces;
+}
+
+// −∫ T (dw − Λ ds) of the contacts that move along members, and of the ends of these.
 Quadrature dissipated_while_moving(const SlidingContact& contacts, const std::vector<const RecordPoint*>& points,
                                    const Samples& arc) {
   Quadrature sum;
   const State& within = points[points.size() / 2]->state;
-  std::map<std::pair<const RecordPoint*, Index>, int> shared;
-  const auto contact_at = [&](Index j, const RecordPoint* point) {
-    return contacts.contact_before(within, j, point->state);
-  };
-  const auto count = static_cast<Index>(within.active_set.contacts());
-  const auto rubs_in = [](const State& state, Index j) { return rubs(state.active_set, static_cast<std::size_t>(j)); };
-  for (Index j = 0; j < count; ++j)
-    for (const RecordPoint* point : points)
-      if (const auto there = contact_at(j, point); there && rubs_in(point->state, *there)) ++shared[{point, *there}];
-  for (Index j = 0; j < count; ++j) {
+  std::vector<std::map<Index, double>> forces;
+  for (const RecordPoint* point : points) forces.push_back(friction_forces(contacts, within, point->state));
+  for (Index j = 0; j < static_cast<Index>(within.active_set.contacts()); ++j) {
+    if (std::none_of(forces.begin(), forces.end(), [j](const auto& at) { return at.contains(j); })) continue;
     const double round = contacts.round_length(within.active_set, j);
-    const auto rubs_at = [&](const RecordPoint* point) {
-      const auto there = contact_at(j, point);
-      return there && rubs_in(point->state, *there);
-    };
-    if (std::none_of(points.begin(), points.end(), rubs_at)) continue;
     Samples against, against_rolled, w, s;
-    for (const RecordPoint* point : points) {
-      const State& state = point->state;
-      const auto there = contact_at(j, point);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const State& state = points[i]->state;
+      const auto there = contacts.counterpart(within, j, state);
       if (!there) break;
       ContactPlace place = contacts.place(state, *there);
       if (round > 0.0 && !w.empty()) place.w += round * std::round((w.back() - place.w) / round);
-      const double T = contacts.friction_force(state, *there) / std::max(shared[{point, *there}], 1);
+      const double T = forces[i].contains(j) ? forces[i].at(j) : 0.0;
       against.push_back(-T);
       against_rolled.push_back(T * place.stretch);
       w.push_back(place.w);
@@ -189,8 +202,7 @@ Quadrature dissipated_while_moving(const SlidingContact& contacts, const std::ve
     }
     if (w.size() != points.size()) continue;
     sum += integral(arc, against, w);
-    const bool is_end = static_cast<std::size_t>(j) >= sliding_layout(within.active_set).points().size();
-    if (!is_end) sum += integral(arc, against_rolled, s);
+    if (contacts.rolls(within.active_set, j)) sum += integral(arc, against_rolled, s);
   }
   return sum;
 }

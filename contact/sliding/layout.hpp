@@ -34,6 +34,7 @@ class SlidingContactLayout final : public SlidingLayout {
     double slipped = 0.0;  ///< along the obstacle since the contact closed, up to there [length]
 
     bool rubs() const { return mode != ContactMode::open; }
+    friend bool operator==(const Rubbing&, const Rubbing&) = default;
   };
 
   /// A tracked point: one a breakpoint of the mesh.

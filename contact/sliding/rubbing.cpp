@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -218,24 +219,64 @@ LawOfFriction law_of_friction(const SlidingSetting& setting, const SlidingState&
   return law;
 }
 
-std::optional<Index> nearest_rubbing(const SlidingSetting& setting, const SlidingState& at, std::size_t contact,
-                                     const SlidingState& other) {
+bool has_same_contacts(const SlidingState& one, const SlidingState& other) {
+  if (one.layout.shared_mesh() == other.layout.shared_mesh()) return true;  // what they do alone differs
+  const auto closed = [](const SlidingState& at) {
+    using Span = SlidingContactLayout::Span;
+    std::vector<std::tuple<Index, std::size_t, Span, Span>> contacts;
+    const auto& points = at.layout.points();
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (at.is_closed(k))
+        contacts.emplace_back(at.mesh.breakpoint(static_cast<Index>(k)).first, points[k].obstacle, points[k].before,
+                              points[k].behind);
+    for (std::size_t j = points.size(); j < at.contacts(); ++j)
+      if (at.is_closed(j)) contacts.emplace_back(-1, j - points.size(), Span::free, Span::free);
+    return contacts;
+  };
+  return closed(one) == closed(other);
+}
+
+namespace {
+
+// The contact with friction of another state that is nearest along the body to one of a state, on the same obstacle, of
+// those that are `like` it.
+template <class Like>
+std::optional<std::size_t> nearest_like(const SlidingSetting& setting, const SlidingState& at, std::size_t contact,
+                                        const SlidingState& other, const Like& like) {
   const auto place = [&](const SlidingState& in, const Touch& touch) {
     return in.mesh.coordinate(touch.strand, touch.position, in.now.s);
   };
   const Touch here = touch_of_contact(setting, at.layout, contact);
-  std::optional<Index> nearest;
+  std::optional<std::size_t> nearest;
   double least = infinity;
   for (std::size_t j = 0; j < other.contacts(); ++j) {
-    if (!other.rubs(j)) continue;
+    if (!other.rubs(j) || !like(j)) continue;
     const Touch there = touch_of_contact(setting, other.layout, j);
     if (there.strand != here.strand || there.obstacle != here.obstacle) continue;
     const double off = std::abs(place(other, there) - place(at, here));
     if (off >= least) continue;
     least = off;
-    nearest = static_cast<Index>(j);
+    nearest = j;
   }
   return nearest;
+}
+
+}  // namespace
+
+// The edges of a zone that has spread from a point have one anchor: of these each is the nearest.
+double slip_since(const SlidingSetting& setting, const SlidingState& event, const SlidingState& at,
+                  std::size_t contact) {
+  if (has_same_contacts(event, at)) return 0.0;
+  const Rubbing& anchor = at.layout.rubbing(contact);
+  const auto known = nearest_like(setting, at, contact, event,
+                                  [&](std::size_t before) { return event.layout.rubbing(before) == anchor; });
+  return slip_of(setting, at, contact) - (known ? slip_of(setting, event, *known) : anchor.slipped);
+}
+
+std::optional<Index> nearest_rubbing(const SlidingSetting& setting, const SlidingState& at, std::size_t contact,
+                                     const SlidingState& other) {
+  const auto nearest = nearest_like(setting, at, contact, other, [](std::size_t) { return true; });
+  return nearest ? std::optional(static_cast<Index>(*nearest)) : std::nullopt;
 }
 
 Rubbing anchored_anew(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {

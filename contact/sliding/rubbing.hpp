@@ -57,6 +57,16 @@ LawOfFriction law_of_friction(const SlidingSetting& setting, const SlidingState&
 /// The same equilibrium with contacts in other modes: see FrictionalContact::with_modes.
 State with_modes(const SlidingSetting& setting, const SlidingState& at, std::span<const ModeOfContact> modes);
 
+/// Whether two states have the same contacts, which may open and close, on whatever mesh: none has parted, come
+/// together or moved to an end.
+bool has_same_contacts(const SlidingState& one, const SlidingState& other);
+
+/// How far a contact of a state, which slips, has slipped since an event at which contacts changed, see
+/// FrictionalContact::slip_since. One whose anchor the event has, too, is the same contact; any other anchor was taken
+/// at the event, where the contact has rolled to its place: nothing slips there [length].
+double slip_since(const SlidingSetting& setting, const SlidingState& event, const SlidingState& at,
+                  std::size_t contact);
+
 /// The contact with friction of another state that is nearest along the body to one of a state, on the same obstacle.
 std::optional<Index> nearest_rubbing(const SlidingSetting& setting, const SlidingState& at, std::size_t contact,
                                      const SlidingState& other);

@@ -15,6 +15,7 @@
 #include "contact/sliding/clamps.hpp"
 #include "contact/sliding/handed_friction.hpp"
 #include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/rubbing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
 #include "contact/sliding/tolerances.hpp"
@@ -319,8 +320,9 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
     ends.push_back(end);
     HandedFriction friction = friction_of_end(setting, at, point, there);
     if (at.rubs(at.layout.points().size() + end)) {
-      const HandedFriction before{
-          .rubbing = edit.end_rubbings[end], .force = edit.end_frictions[end], .held = edit.ends_held[end]};
+      const HandedFriction before{.rubbing = anchored_anew(setting, at, at.layout.points().size() + end),
+                                  .force = edit.end_frictions[end],
+                                  .held = edit.ends_held[end]};
       const bool do_the_same = friction.rubbing.mode == before.rubbing.mode;
       friction = merged(before, friction, do_the_same ? before.rubbing.mode : ContactMode::sticks, 0.0);
     }

@@ -140,4 +140,16 @@ TEST(MovingFrictionEnds, EdgesGatherAgain) {
     expect_resumed(text, session, killed);
 }
 
+// A zone gathers before its length is 0, and so much sooner as elements are longer. What is lost until behind that does
+// not depend on it.
+TEST(MovingFrictionEnds, GatheringLosesTheSameOnAnyMesh) {
+  const auto lost = [](int elements) {
+    std::string text = column(0.2, stage("on", "load.0", 0.05, -1.0, 1.9) + "max_step = 0.01\n" +
+                                       stage("back", "load.0", -0.02, -0.3, 5.0) + "max_step = 0.01\n");
+    text.replace(text.find("elements = 20"), 13, fmt::format("elements = {}", elements));
+    return lost_until(run_of(text).points().back());
+  };
+  EXPECT_NEAR(lost(20), lost(80), 1e-8);
+}
+
 }  // namespace arcwall::friction_test
