@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/bound_value.hpp"
@@ -15,8 +16,10 @@
 #include "contact/sliding/handed_friction.hpp"
 #include "contact/sliding/pulling_jumps.hpp"
 #include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/rubbing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/tips.hpp"
+#include "contact/sliding/tolerances.hpp"
 
 namespace arcwall::sliding {
 
@@ -78,32 +81,69 @@ Transition back_to(const SlidingSetting& setting, const SlidingState& at, const 
   return transition;
 }
 
-// What the point may do that two points become: if these do not do the same, one or the other, or it sticks.
-std::vector<ContactMode> modes_of_one(const SlidingState& at, std::size_t first) {
-  const ContactMode one = at.layout.rubbing(first).mode, other = at.layout.rubbing(first + 1).mode;
-  if (one == other) return {one};
-  std::vector<ContactMode> modes{ContactMode::sticks};
-  for (const ContactMode mode : {one, other})
-    if (slips(mode)) modes.push_back(mode);
-  return modes;
+// Friction of a tracked point [force].
+double friction_at(const SlidingState& at, std::size_t point) {
+  const auto T = at.index.friction(point);
+  return T ? at.state.x[*T] : 0.0;
 }
 
-// Two points at the ends of each span become one in its middle. `mode`: what friction does there.
-Transition gathered(const SlidingSetting& setting, const SlidingState& at, const Points& spans, ContactMode mode) {
+// The slip that the friction of both edges of a span resists, if one of them slips so and the other does not.
+std::optional<ContactMode> slip_of_one_edge(const SlidingState& at, std::size_t first) {
+  const ContactMode one = at.layout.rubbing(first).mode, other = at.layout.rubbing(first + 1).mode;
+  const ContactMode against = friction_at(at, first) + friction_at(at, first + 1) < 0.0 ? ContactMode::slips_forward
+                                                                                        : ContactMode::slips_backward;
+  if (one == other || (one != against && other != against)) return std::nullopt;
+  return against;
+}
+
+// How much more friction the point can bear that a span becomes [force].
+double friction_left(const SlidingSetting& setting, const SlidingState& at, std::size_t first) {
+  return friction_coefficient(setting, at.layout, first) * (at.force(first) + at.force(first + 1)) -
+         std::abs(friction_at(at, first) + friction_at(at, first + 1));
+}
+
+// What the points may do that spans become, each for itself. If both edges of a span do the same the point goes on with
+// it. Else |T₁ + T₂| < μ (p₁ + p₂) and it sticks, unless the edge that does not slip comes to its bound within the rest
+// of the span: so may those that are nearest to it, mirror images together.
+std::vector<std::vector<ContactMode>> modes_of_points(const SlidingSetting& setting, const SlidingState& at,
+                                                      const Points& spans) {
+  std::vector<ContactMode> modes;
+  std::vector<std::pair<double, std::size_t>> may_slip;
+  for (const std::size_t k : spans) {
+    const ContactMode one = at.layout.rubbing(k).mode;
+    modes.push_back(one == at.layout.rubbing(k + 1).mode ? one : ContactMode::sticks);
+    if (slip_of_one_edge(at, k)) may_slip.emplace_back(friction_left(setting, at, k), modes.size() - 1);
+  }
+  std::sort(may_slip.begin(), may_slip.end());
+  std::vector<std::vector<ContactMode>> all{modes};
+  for (std::size_t i = 0; i < may_slip.size(); ++i) {
+    const auto [left, span] = may_slip[i];
+    modes[span] = slip_of_one_edge(at, spans[span]).value();
+    const bool has_twin =
+        i + 1 < may_slip.size() && may_slip[i + 1].first - left <= reached_nearly * setting.scales.force;
+    if (!has_twin) all.push_back(modes);
+  }
+  return all;
+}
+
+// Two points at the ends of each span become one in its middle. `modes`: what friction does at each.
+Transition gathered(const SlidingSetting& setting, const SlidingState& at, const Points& spans,
+                    const std::vector<ContactMode>& modes) {
   LayoutEdit edit = edit_of(setting.body, at);
   const auto middle = [&](std::size_t k) { return 0.5 * (edit.place(k) + edit.place(k + 1)); };
   std::vector<double> places;
   for (const std::size_t k : spans) places.push_back(middle(k));
-  for (auto k = spans.rbegin(); k != spans.rend(); ++k) {
-    const double s = middle(*k);
+  for (std::size_t i = spans.size(); i-- > 0;) {
+    const std::size_t k = spans[i];
+    const double s = middle(k);
     const HandedFriction friction =
-        merged(friction_of_point_at(setting, at, *k, s), friction_of_point_at(setting, at, *k + 1, s), mode, s);
-    edit.points[*k].behind = edit.points[*k + 1].behind;
-    edit.points[*k].neutral_behind = edit.points[*k + 1].neutral_behind;
-    edit.forces[*k] += edit.forces[*k + 1];
-    edit.erase(*k + 1, edit.elements_behind(*k + 1));
-    edit.place(*k) = s;
-    friction.give_to_point(*k, 1.0, edit);
+        merged(friction_of_point_at(setting, at, k, s), friction_of_point_at(setting, at, k + 1, s), modes[i], s);
+    edit.points[k].behind = edit.points[k + 1].behind;
+    edit.points[k].neutral_behind = edit.points[k + 1].neutral_behind;
+    edit.forces[k] += edit.forces[k + 1];
+    edit.erase(k + 1, edit.elements_behind(k + 1));
+    edit.place(k) = s;
+    friction.give_to_point(k, 1.0, edit);
   }
   return back_to<CurvatureBound>(setting, at, edit, places, Transition::Change::gathers);
 }
@@ -154,7 +194,8 @@ std::vector<Transition> span_vanishes(const SlidingSetting& setting, const Slidi
   std::erase_if(spans, [&](std::size_t k) { return closes_a_gap(k) != closes_a_gap(point); });
   if (closes_a_gap(point)) return {joined(setting, at, spans)};
   std::vector<Transition> transitions;
-  for (const ContactMode mode : modes_of_one(at, point)) transitions.push_back(gathered(setting, at, spans, mode));
+  for (const std::vector<ContactMode>& modes : modes_of_points(setting, at, spans))
+    transitions.push_back(gathered(setting, at, spans, modes));
   return transitions;
 }
 
@@ -239,7 +280,7 @@ std::vector<Transition> neighbours_vanish(const SlidingSetting& setting, const S
   std::vector<Transition> transitions;
   if (auto transition = joined_at_jump(setting, at, point)) transitions.push_back(std::move(*transition));
   if (const auto first = half_pressed_stretch(setting, at, forward, point))
-    transitions.push_back(gathered(setting, at, {*first, *first + 1}, ContactMode::open));
+    transitions.push_back(gathered(setting, at, {*first, *first + 1}, std::vector(2, ContactMode::open)));
   const bool before = at.layout.span_before(point) == Span::pressed;
   const bool behind = at.layout.points()[point + 1].behind == Span::pressed;
   if (at.layout.points()[point].behind == Span::free && before != behind && !obstacle_is_straight(setting, at, point))

@@ -29,6 +29,26 @@ std::string bent_strip(double friction, const std::string& stages) {
   return text + moving;
 }
 
+// The column between rough walls and its mirror image beside it, which has the same loads.
+std::string twin_columns(double friction, std::string stages) {
+  std::string text = column(friction, "",
+                            "[member.image]\nfrom = \"far\"\nto = \"near\"\ntheory = \"elastica\"\nmaterial = \"m\"\n"
+                            "section = \"s\"\nelements = 20\n"
+                            "imperfection = [{ shape = \"sine\", amplitude = 1e-9, waves = 1 }]\n"
+                            "[[load]]\nat = \"far\"\nforce = [1.0, 0.0]\n"
+                            "[[monitor]]\nname = \"image\"\nat = \"far\"\ncomponent = \"x\"\n");
+  const auto insert = [](std::string& to, const std::string& behind, const std::string& what) {
+    for (std::size_t at = to.find(behind); at != std::string::npos; at = to.find(behind, at + what.size())) {
+      at += behind.size();
+      to.insert(at, what);
+    }
+  };
+  insert(text, "[point]\n", "near = [-0.5, 0.0]\nfar = [-2.5, 0.0]\n");
+  insert(text, "[support]\n", "near = [\"x\", \"z\"]\nfar = [\"z\"]\n");
+  insert(stages, "drives = [\"load.0\"", ", \"load.1\"");
+  return text + stages;
+}
+
 }  // namespace
 
 TEST(MovingFrictionEnds, DraggedTipSlipsSticksAndSlipsBack) {
@@ -150,6 +170,27 @@ TEST(MovingFrictionEnds, GatheringLosesTheSameOnAnyMesh) {
     return lost_until(run_of(text).points().back());
   };
   EXPECT_NEAR(lost(20), lost(80), 1e-8);
+}
+
+// Two zones that are mirror images slip in opposite senses and gather together, whatever their edges do there: both
+// slip if the load has gone to 1.9, one sticks if it turns sooner.
+TEST(MovingFrictionEnds, MirrorImagesGatherAlike) {
+  for (const double most : {1.9, 1.79, 1.782}) {
+    SCOPED_TRACE(most);
+    const std::string stages = stage("on", "load.0", 0.05, -1.0, most) + stage("back", "load.0", -0.02, -0.3, 5.0);
+    const Session both = run_of(twin_columns(0.2, stages)), one = run_of(column(0.2, stages));
+    expect_law(both);
+    EXPECT_EQ(reason(both), EndReason::stop);
+    for (const EventKind kind : {EventKind::contact_spreads, EventKind::contact_shrinks, EventKind::contact_slips})
+      for (const Index branch : {0, 1}) {
+        const auto found = lambdas(both, kind, branch), expected = lambdas(one, kind, branch);
+        ASSERT_EQ(found.size(), expected.size());
+        for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-8);
+      }
+    for (const RecordPoint& point : both.points()) EXPECT_NEAR(point.monitors[0], point.monitors[2], 1e-9);
+    // Steps differ, and with them the error of the quadrature.
+    EXPECT_NEAR(lost_until(both.points().back()), 2.0 * lost_until(one.points().back()), 1e-7);
+  }
 }
 
 }  // namespace arcwall::friction_test
