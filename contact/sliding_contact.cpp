@@ -537,15 +537,22 @@ State SlidingContact::gripped(const SlidingContact& free, const State& state) co
   const SlidingState at(state);
   std::vector<std::size_t> number;  // of each contact, there
   for (std::size_t k = 0; k < at.layout.points().size(); ++k) number.push_back(k);
-  SlidingContactLayout::EndRubbings ends;
   for (const FreeEnd& end : setting_->free_ends) {
     const auto before = free.setting_->number_of_end({.strand = end.strand, .last = end.last}, end.obstacle);
     number.push_back(at.layout.points().size() + before.value());
-    ends.push_back(at.layout.rubbing(number.back()));
   }
-  const auto here =
-      std::make_shared<SlidingContactLayout>(body(), body().mesh(at.mesh.elements_per_segment()), at.layout.points(),
-                                             at.now.s, at.layout.lying(), std::move(ends));
+  const auto with_ends = [&](SlidingContactLayout::EndRubbings ends) {
+    return std::make_shared<SlidingContactLayout>(body(), body().mesh(at.mesh.elements_per_segment()),
+                                                  at.layout.points(), at.now.s, at.layout.lying(), std::move(ends));
+  };
+  // What holds an end along its wall from now on bears the friction.
+  SlidingContactLayout::EndRubbings ends;
+  const auto without_friction = with_ends({});
+  for (std::size_t j = at.layout.points().size(); j < number.size(); ++j)
+    ends.push_back(sliding::friction_coefficient(*setting_, *without_friction, j) > 0.0
+                       ? at.layout.rubbing(number[j])
+                       : SlidingContactLayout::Rubbing{});
+  const auto here = with_ends(std::move(ends));
   ActiveSet active_set(number.size(), 0, here);
   for (std::size_t j = 0; j < number.size(); ++j) active_set[j] = state.active_set[number[j]];
   State result{.x = {}, .lambda = state.lambda, .active_set = active_set.with_kinks_of(state.active_set)};

@@ -130,7 +130,8 @@ class SlidingContact final : public System, public ContactQuery, public Friction
   State adopted(const State& state) const;
 
   /// Returns the state of this body, which is held where that of `free` is free, from one there: what walls exert on
-  /// the ends that are held now, and the moments at tips that are, is left to the supports.
+  /// the ends that are held now, and the moments at tips that are, is left to the supports. So is friction of an end
+  /// that they hold along its wall.
   State gripped(const SlidingContact& free, const State& state) const;
 
   /// The state from which λ goes towards a value: parts that lie on walls without pressure, and along which a load

@@ -88,10 +88,12 @@ bool moves_along(const Candidate& candidate, const State& rest) {
   return motions.cols() >= 2 && Eigen::JacobiSVD<Eigen::MatrixXd>(motions).singularValues()[1] > least;
 }
 
-bool moves_with_lambda(const Candidate& candidate, const State& rest) {
+// Whether λ moves a point along the wall that it faces.
+bool is_moved_along(const Candidate& candidate, const State& rest) {
+  constexpr double least = 1e-9;  // of the motion
   PointKinematics at;
   candidate.point().kinematics(rest, at);
-  return !at.rate.isZero(0.0);
+  return std::abs(cross(candidate.normal(rest), at.rate)) > least * at.rate.norm();
 }
 
 bool acts_on_axis(const TouchAtRest& touch) { return touch.wall->contact_surface == deck::ContactSurface::axis; }
@@ -379,7 +381,7 @@ std::vector<std::uint8_t> stand_for_members(const Structure& structure, const st
 }
 
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure,
-                                          const PinchedPlaces& known, DeckProblems& problems) {
+                                          const PinchedPlaces& known, DeckProblems& at_rest, DeckProblems& problems) {
   std::vector<Candidate> candidates, held;
   std::vector<TouchAtRest> touches;
   const double round_off = 1e-12 * structure.length_scale();
@@ -390,11 +392,11 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
     Penetration deepest;
     std::map<double, std::shared_ptr<const Obstacle>> obstacles;  // by how far axes stay off
     for (const MemberMesh& mesh : structure.members()) {
-      if (!concerns(wall, mesh.name) || !can_touch(wall, mesh, known, deck.frame.factor(), problems)) continue;
+      if (!concerns(wall, mesh.name) || !can_touch(wall, mesh, known, deck.frame.factor(), at_rest)) continue;
       if (wall.contact_surface == deck::ContactSurface::face && !wall.outline && !mesh.rotations.front()) {
-        problems.add(wall.position, "wall.contact_surface",
-                     "member \"" + mesh.name + "\" is a truss and has no faces that turn",
-                     "use contact_surface = \"axis\"");
+        at_rest.add(wall.position, "wall.contact_surface",
+                    "member \"" + mesh.name + "\" is a truss and has no faces that turn",
+                    "use contact_surface = \"axis\"");
         continue;
       }
       for (const MemberSection& section : mesh.contact_sections()) {
@@ -429,7 +431,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
           candidate.set_friction(friction_of(deck, wall, mesh.name, section.fraction),
                                  on_axis ? std::make_unique<MemberPoint>(structure, section, 0.0) : nullptr);
           if (candidate.friction() > 0.0 && !moves_along(candidate, rest)) {
-            if (moves_with_lambda(candidate, rest))
+            if (is_moved_along(candidate, rest))
               problems.add(
                   wall.position, "wall.friction",
                   fmt::format("a support moves {}:{:.4g} along the wall, and friction would act on the support",
@@ -450,7 +452,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
     }
     const double rounded = wall.interference > 0.0 ? drawn_to * structure.length_scale() : round_off;
     if (deepest.depth > wall.interference + rounded)
-      problems.add(
+      at_rest.add(
           wall.position, "wall." + wall.name,
           fmt::format("member \"{}\" is inside the wall at the start: node {}:{:.4g} by {:.9g}{}{}",
                       deepest.label.member, deepest.label.member, deepest.label.fraction,
@@ -458,7 +460,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
                       wall.interference > 0.0 ? ", more than its interference" : ""),
           wall.interference > 0.0 ? "give it a greater interference, or move the wall" : how_to_part(wall, deepest));
   }
-  join_opposite(touches, known, drawn_to * structure.length_scale(), candidates, problems);
+  join_opposite(touches, known, drawn_to * structure.length_scale(), candidates, at_rest);
   std::move(held.begin(), held.end(), std::back_inserter(candidates));
   return candidates;
 }

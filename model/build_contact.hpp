@@ -53,11 +53,12 @@ bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlac
 
 PinchedPlaces pinched_places(const deck::Deck& deck, const SlidingStructure& structure);
 
-/// Every node of a wall's members against the wall: on the face that looks at it, or on the axis. Adds a problem for
-/// each wall that a member penetrates at the start, and for walls without clearance on both sides of a node that it is
-/// not known how to hold; `known`: where it is known without nodes. Points that supports hold stand last.
+/// Every node of a wall's members against the wall: on the face that looks at it, or on the axis. Points that supports
+/// hold stand last. `at_rest` gets a problem for each wall that a member penetrates at the start, and for walls without
+/// clearance on both sides of a node that it is not known how to hold; `known`: where it is known without nodes.
+/// `problems`: for each node that λ moves along a wall with friction.
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure,
-                                          const PinchedPlaces& known, DeckProblems& problems);
+                                          const PinchedPlaces& known, DeckProblems& at_rest, DeckProblems& problems);
 
 /// Of each candidate 1 if it is at a node and stands for contact along a member, 0 if nothing but this point of the
 /// body can touch there: a member's free end, a joint of bars.

@@ -62,7 +62,7 @@ std::vector<Index> nodes_of(const LooseHolds& holds, const StructureOfDeck& desc
 std::vector<Candidate> nodes_that_touch(const Assembly& assembly) {
   if (assembly.deck->walls.empty() || assembly.deck->contact.is_compliant()) return {};
   DeckProblems known(assembly.deck->source);
-  return contact_candidates(*assembly.deck, *assembly.structure, {}, known);
+  return contact_candidates(*assembly.deck, *assembly.structure, {}, known, known);
 }
 
 // What is looked for beside the path is looked for on the deck's mesh.
@@ -138,7 +138,7 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, 
   DeckProblems& at_rest = stage_ == 0 ? problems : not_at_rest;
   check_compliant_walls(deck(), structure(), at_rest);
   std::vector<Candidate> candidates;
-  if (!deck().contact.is_compliant()) candidates = contact_candidates(deck(), structure(), pinched, at_rest);
+  if (!deck().contact.is_compliant()) candidates = contact_candidates(deck(), structure(), pinched, at_rest, problems);
   const bool sliding = slides(deck(), described.builder, candidates, problems);
   if (stage_ == 0) check_friction(deck(), structure(), candidates, sliding ? sliding_structure() : nullptr, problems);
   if (!sliding) path_.sliding_structure.reset();

@@ -13,6 +13,7 @@
 #include "model/deck/reader.hpp"
 #include "model/deck/writer.hpp"
 #include "tests/apps/loading/loading_decks.hpp"
+#include "tests/model/friction_decks.hpp"
 
 namespace arcwall::grips_test {
 
@@ -409,6 +410,75 @@ friction = 0.3
   EXPECT_NEAR(value_of(run, "R", drawn), 0.3 + (first + 0.03) - 0.2, 1e-10);
   expect_confirmed(run);
   expect_resumed_alike(deck, run);
+}
+
+namespace {
+
+// A strip that a clamp presses down on a rough floor, which its tip touches at rest; `more` grips the tip.
+std::string pressed_strip(double friction, const std::string& more) {
+  return "title = \"Strip on a rough floor\"\n" + friction_test::strip(friction, "") +
+         monitor("H", "tip", "reaction-x") + "[contact]\npoints = \"moving\"\n" + more;
+}
+
+const std::string grip_of_tip = "[[prescribed]]\nat = \"tip\"\nx = 0.0\nfrom = \"stage\"\n";
+
+}  // namespace
+
+// What holds a tip along its wall bears the friction. A tip that has stuck is gripped without a change, and goes on as
+// if a support had held it from the start.
+TEST(Grip, OfATipThatSticksBearsItsFriction) {
+  for (const std::string points : {"moving", "nodes"}) {
+    SCOPED_TRACE(points);
+    std::string deck = pressed_strip(0.8, grip_of_tip + stage("press", "\"prescribed.0\"", 0.0005, -1.0, 0.001) +
+                                              stage("on", "\"prescribed.0\", \"prescribed.1\"", 0.0002, -1.0, 0.001));
+    deck.replace(deck.find("points = \"moving\""), 17, "points = \"" + points + "\"");
+    const TracedDeck run(deck);
+    const RecordPoint &pressed = last_of(run, "press"), &gripped = first_of(run, "on"), &on = last_of(run, "on");
+    ASSERT_EQ(on.lambda, 0.001);
+    EXPECT_LT(value_of(run, "T", pressed), -1.0);
+    EXPECT_NEAR(value_of(run, "H", gripped), value_of(run, "T", pressed), 1e-8);
+    EXPECT_EQ(value_of(run, "T", gripped), 0.0);
+    EXPECT_NEAR(value_of(run, "p", gripped), value_of(run, "p", pressed), 1e-8);
+    std::string held = pressed_strip(0.8, stage("press", "\"prescribed.0\"", 0.0005, -1.0, 0.001) +
+                                              stage("on", "\"prescribed.0\"", 0.0002, -1.0, 0.001));
+    held.replace(held.find("[support]\n"), 10, "[support]\ntip = [\"x\"]\n");
+    const TracedDeck from_rest(held);
+    for (const std::string name : {"H", "p", "x"})
+      EXPECT_NEAR(value_of(run, name, on), value_of(from_rest, name, last_of(from_rest, "on")), 1e-7) << name;
+    EXPECT_EQ(on.dissipation.front(), 0.0);
+    expect_confirmed(run);
+    expect_resumed_alike(deck, run);
+  }
+}
+
+// A tip that has slipped is gripped where it is, and leaves the floor there as the clamp goes up.
+TEST(Grip, OfATipThatSlipsBearsItsFriction) {
+  const std::string deck =
+      pressed_strip(0.3, grip_of_tip + stage("press", "\"prescribed.0\"", 0.0005, -1.0, 0.1) +
+                             stage("lift", "\"prescribed.0\", \"prescribed.1\"", -0.002, -0.12, 1.0));
+  const TracedDeck run(deck);
+  const RecordPoint &pressed = last_of(run, "press"), &gripped = first_of(run, "lift"), &lifted = last_of(run, "lift");
+  EXPECT_NEAR(value_of(run, "p", pressed), 1.157986449610, 1e-6);
+  EXPECT_NEAR(value_of(run, "H", gripped), -0.3 * 1.157986449610, 1e-6);
+  EXPECT_EQ(value_of(run, "T", gripped), 0.0);
+  EXPECT_NEAR(value_of(run, "x", gripped), 0.637790988438 - 0.5, 1e-7);
+  ASSERT_EQ(lifted.lambda, -0.12);
+  EXPECT_EQ(lifted.contacts, 0);
+  EXPECT_NEAR(value_of(run, "x", lifted), value_of(run, "x", gripped), 1e-12);
+  EXPECT_EQ(lifted.dissipation.front(), pressed.dissipation.front());
+  expect_confirmed(run);
+  expect_resumed_alike(deck, run);
+}
+
+// A movement of a tip along a rough wall would bring friction on the support alone, whichever stage drives it.
+TEST(Grip, ThatDrawsATipAlongARoughWallIsRefused) {
+  std::string grip = grip_of_tip;
+  grip.replace(grip.find("x = 0.0"), 7, "x = 1.0");
+  const std::string press = stage("press", "\"prescribed.0\"", 0.0005, -1.0, 0.001),
+                    draw = stage("draw", "\"prescribed.1\"", 0.0002, -1.0, 0.001);
+  EXPECT_NE(test::said_of(pressed_strip(0.3, grip + press + draw)).find("a support moves strip:1 along the wall"),
+            std::string::npos);
+  EXPECT_EQ(test::said_of(pressed_strip(0.0, grip + press + draw)), "");
 }
 
 // A number moves the place where a later stage grips, which is told and not left out.
