@@ -5,15 +5,10 @@
 
 namespace arcwall {
 
-namespace {
-
-// The part of an element that a point stands for.
-PressedPart part_of(std::size_t point) {
-  const double t = WallPressure::rubbing_point(point), half = 0.5 * WallPressure::rubbing_point(1);
+PressedPart WallPressure::nearest_to(std::size_t point) {
+  const double t = rubbing_point(point), half = 0.5 * rubbing_point(1);
   return {.from = std::max(t - half, 0.0), .to = std::min(t + half, 1.0)};
 }
-
-}  // namespace
 
 // Edges of contact lie where they do: the force on a part changes smoothly as one passes through it.
 std::array<WallPressure::Rubbed, WallPressure::rubbing_points> WallPressure::rubbed(const double* u,
@@ -22,7 +17,7 @@ std::array<WallPressure::Rubbed, WallPressure::rubbing_points> WallPressure::rub
   const Curve touching(*this, u), rubbing(rubbing_ ? *rubbing_ : *this, u);
   for (std::size_t i = 0; i < rubbing_points; ++i) {
     const double t = rubbing_point(i);
-    const PressedPart whole = part_of(i);
+    const PressedPart whole = nearest_to(i);
     out[i].length = touching.speed(t) * (whole.to - whole.from);
     const Vec2 at = rubbing.place(t);
     if (!std::isfinite(wall_->slope(at, lambda).value)) continue;
@@ -34,7 +29,7 @@ std::array<WallPressure::Rubbed, WallPressure::rubbing_points> WallPressure::rub
   }
   for (const PressedPart& part : wall_pressure::pressed_parts(touching.gaps(lambda)))
     for (std::size_t i = 0; i < rubbing_points; ++i) {
-      const PressedPart whole = part_of(i);
+      const PressedPart whole = nearest_to(i);
       const PressedPart here{.from = std::max(part.from, whole.from), .to = std::min(part.to, whole.to)};
       if (!(here.to > here.from)) continue;
       Curve::Controls slope = Curve::Controls::Zero();

@@ -100,6 +100,9 @@ class WallPressure final : public DrivenElement {
   static constexpr std::size_t rubbing_points = 5;
   static constexpr double rubbing_point(std::size_t point) { return double(point) / double(rubbing_points - 1); }
 
+  /// That part of the element.
+  static PressedPart nearest_to(std::size_t point);
+
   /// What friction depends on at such a point: the force across the wall on its part of the element, and its place
   /// along the wall [force, length], with their derivatives by the unknowns and by λ.
   struct Rubbed {

@@ -235,24 +235,27 @@ double CompliantContact::force(const State& state, Index j) const {
 
 namespace {
 
-// What friction does on a pressed part of an element: the sum of its material points, between fractions of the member.
-// Where these differ in what they do it sticks.
-std::optional<FrictionOfContact> friction_between(const CompliantFriction& friction, const State& state,
-                                                  const std::vector<CompliantFriction::Point>& points,
-                                                  const WallPressure* on, double coefficient, double from, double to) {
-  constexpr double half = 0.5 * WallPressure::rubbing_point(1);
+// What friction does on a pressed part of an element: the sum of its material points. A point between two parts has as
+// much of its friction on each as of the force across the wall. Where points differ in what they do the part sticks.
+std::optional<FrictionOfContact> friction_on(const PressedPart& part, const std::vector<PressedPart>& parts,
+                                             const CompliantFriction& friction, const State& state,
+                                             const std::vector<CompliantFriction::Point>& points,
+                                             const WallPressure& pressure, const double* u, double coefficient) {
   FrictionOfContact sum{.coefficient = coefficient};
   std::optional<int> sense;
   double most = 0.0;
   bool alike = true;
   for (const CompliantFriction::Point& point : points) {
-    const double reach = half * (point.pressed->to - point.pressed->from);
-    if (point.pressed->pressure != on || point.fraction + reach <= from || point.fraction - reach >= to) continue;
+    const PressedPart whole = WallPressure::nearest_to(point.number);
+    const PressedPart here{.from = std::max(part.from, whole.from), .to = std::min(part.to, whole.to)};
+    if (point.pressed->pressure != &pressure || !(here.to > here.from)) continue;
+    const double share =
+        parts.size() == 1 ? 1.0 : coefficient * pressure.force_of(u, state.lambda, here).force / point.most;
     alike = alike && sense.value_or(point.sense) == point.sense;
     sense = point.sense;
-    sum.force += point.force;
-    sum.slip += point.most * point.slip;
-    most += point.most;
+    sum.force += share * point.force;
+    sum.slip += share * point.most * point.slip;
+    most += share * point.most;
     sum.tangent = friction.tangent(state, point);
   }
   if (!sense) return std::nullopt;
@@ -277,7 +280,8 @@ std::vector<ContactPoint> CompliantContact::closed_contacts(const State& state) 
     double last_fraction = 0.0;
     for (const Pressed& pressed : pressed_[j]) {
       const Local at = local(state, pressed);
-      for (const PressedPart& part : pressed.pressure->pressed(at.u, state.lambda)) {
+      const std::vector<PressedPart> parts = pressed.pressure->pressed(at.u, state.lambda);
+      for (const PressedPart& part : parts) {
         const auto borne = pressed.pressure->force_of(at.u, state.lambda, part);
         if (borne.force <= 0.0) continue;
         const double begin = std::lerp(pressed.from, pressed.to, part.from);
@@ -290,8 +294,8 @@ std::vector<ContactPoint> CompliantContact::closed_contacts(const State& state) 
         middle.force_vector = borne.vector;
         middle.label.tributary = borne.length;
         if (walls_[j].friction > 0.0)
-          middle.friction = friction_between(*friction_, state, points, pressed.pressure, walls_[j].friction, begin,
-                                             std::lerp(pressed.from, pressed.to, part.to));
+          middle.friction =
+              friction_on(part, parts, *friction_, state, points, *pressed.pressure, at.u, walls_[j].friction);
         if (middle.friction) middle.force_vector += middle.friction->force * middle.friction->tangent;
         contacts.push_back(std::move(middle));
         reached = std::lerp(pressed.from, pressed.to, part.to);

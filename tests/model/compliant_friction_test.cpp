@@ -310,6 +310,78 @@ theory = )";
   }
 }
 
+// A beam of one element on a compliant floor, drawn along and then bent up by end moments until its middle is off. Each
+// of the two parts that are left has its share of what the material point between them bears.
+TEST(CompliantFriction, PartsOfOneElementShareAPoint) {
+  const Session run =
+      run_of(R"(
+[material.m]
+E = 1.0
+[section.s]
+shape = "general"
+A = 1e4
+I = 1.0
+[point]
+a = [0.0, 0.0]
+b = [1.0, 0.0]
+[member.beam]
+from = "a"
+to = "b"
+theory = "euler-bernoulli"
+material = "m"
+section = "s"
+elements = 1
+[[prescribed]]
+at = "a"
+x = 1.0
+[[load]]
+at = "a"
+force = [0.0, -1.0]
+constant = true
+[[load]]
+at = "b"
+force = [0.0, -1.0]
+constant = true
+[[load]]
+at = "a"
+moment = 1.0
+[[load]]
+at = "b"
+moment = -1.0
+[contact]
+method = "compliant"
+law = { stiffness = 100.0, tangential_stiffness = 1000.0 }
+[[wall]]
+name = "floor"
+side = "below"
+contact_surface = "axis"
+profile = { type = "flat", z = 0.0 }
+friction = 0.3
+[[monitor]]
+name = "T"
+wall = "floor"
+component = "friction-force"
+)" + stage("pull", "prescribed.0", 0.001, -1.0, 0.01) +
+             "[[stage]]\nname = \"bend\"\ndrives = [\"load.2\", \"load.3\"]\nstep = 0.02\nmax_step = 0.01\n"
+             "stop = { lambda = [-1.0, 2.0] }\n");
+  int shared = 0;
+  for (const RecordPoint& point : run.points()) {
+    double sum = 0.0;
+    std::vector<double> edges;
+    for (const RecordForce& row : point.forces) {
+      if (!row.friction) {
+        edges.push_back(row.label.fraction);
+        continue;
+      }
+      sum += row.friction->force;
+      EXPECT_LE(std::abs(row.friction->force), 0.3 * row.force * (1.0 + 1e-9));
+    }
+    EXPECT_NEAR(sum, point.monitors[0], 1e-12);
+    if (edges.size() == 4 && edges[1] > 0.375 && edges[2] < 0.625) ++shared;
+  }
+  EXPECT_GT(shared, 0);
+}
+
 namespace {
 
 std::string with(std::string text, const std::string& what, const std::string& by) {
