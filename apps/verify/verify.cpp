@@ -140,6 +140,9 @@ std::vector<std::string> left_out(const Model& model, Index uncounted, bool move
     sentences.emplace_back(
         "energy and stiffness of compliant walls: those of the program, whose edges of contact lie inside elements; "
         "their forces are compared with laws and distances by a rule of 64 parts");
+  if (model.compliant() != nullptr && deck::has_friction(model.deck()))
+    sentences.emplace_back(
+        "rates of watched monitors on compliant walls with friction: places begin to slip within any difference");
   if (deck::has_friction(model.deck()))
     sentences.emplace_back(
         "stability counts and the choice among several solutions at contacts with friction: no energy determines them");
@@ -157,6 +160,7 @@ std::vector<std::string> left_out(const Model& model, Index uncounted, bool move
 }
 
 // Friction opposes slip: what slips at two points that follow each other has slipped against its friction force.
+// check_energy_balance() looks at the material points on compliant walls.
 void check_slips(const Model& model, const RecordPoint& before, const RecordPoint& after, Findings& findings) {
   if (!deck::has_friction(model.deck()) || before.state.active_set != after.state.active_set) return;
   const std::vector<ContactPoint> from = model.contacts()->closed_contacts(before.state),
