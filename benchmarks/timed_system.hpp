@@ -45,7 +45,7 @@ class TimedSystem final : public System {
     return true;
   }
 
-  Index size(const ActiveSet& active_set) const override { return inner_.size(active_set); }
+  Dimensions dimensions(const ActiveSet& active_set) const override { return inner_.dimensions(active_set); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override {
     const ScopedTimer timer(times_.assembly);
     inner_.residual(state, F);
@@ -59,17 +59,12 @@ class TimedSystem final : public System {
     if (times_parts) last_F_ = out.F;
   }
   double energy(const State& state) const override { return inner_.energy(state); }
-  double squared_motion_by_lambda(const ActiveSet& active_set) const override {
-    return inner_.squared_motion_by_lambda(active_set);
-  }
-  Vector weights(const ActiveSet& active_set) const override {
+  StateMetric metric(const ActiveSet& active_set) const override {
     const ScopedTimer timer(times_.assembly);
-    return inner_.weights(active_set);
+    return inner_.metric(active_set);
   }
   ActiveSet open_active_set() const override { return inner_.open_active_set(); }
-  Index multiplier_count(const ActiveSet& active_set) const override { return inner_.multiplier_count(active_set); }
 
-  Index guard_count(const ActiveSet& active_set) const override { return inner_.guard_count(active_set); }
   Vector guards(const State& state) const override {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.guards(state);
@@ -93,7 +88,6 @@ class TimedSystem final : public System {
   CountedDirections counted_directions(const ActiveSet& active_set) const override {
     return inner_.counted_directions(active_set);
   }
-  double multiplier_scale() const override { return inner_.multiplier_scale(); }
   Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override {
     return inner_.transfer(x, from, to);
   }

@@ -80,6 +80,7 @@ MultiplierContact::MultiplierContact(const Equations& inner, std::vector<Candida
     if (law.method == ContactLaw::Method::penalty) springs.c = 1.0 / k;
     if (law.method == ContactLaw::Method::augmented) springs.r = k;
     springs_.push_back(springs);
+    speed_of_walls_ = std::max(speed_of_walls_, candidate.obstacle().greatest_speed(scales_.length) / scales_.length);
   }
   neighbours_ = neighbours_along_members(candidates_, held_);
   const auto rough = [](const Candidate& candidate) { return candidate.friction() > 0.0; };
@@ -136,8 +137,15 @@ Index MultiplierContact::force_count(const ActiveSet& active_set) const {
   return count;
 }
 
-Index MultiplierContact::multiplier_count(const ActiveSet& active_set) const {
-  return force_count(active_set) + static_cast<Index>(frictions(active_set).size());
+Dimensions MultiplierContact::dimensions(const ActiveSet& active_set) const {
+  const std::vector<Friction> rubbing = frictions(active_set);
+  const Index slips =
+      std::count_if(rubbing.begin(), rubbing.end(), [](const Friction& at) { return at.w.has_value(); });
+  const auto frictional = static_cast<Index>(rubbing.size());
+  const Index multipliers = force_count(active_set) + frictional;
+  return {.unknowns = inner_.size({}) + multipliers + slips,
+          .multipliers = multipliers,
+          .bounds = 2 * (frictional - slips)};
 }
 
 ActiveSet MultiplierContact::open_active_set() const {
@@ -218,21 +226,17 @@ double MultiplierContact::energy(const State& state) const {
 }
 
 // An obstacle counts as a structure that goes with it would.
-double MultiplierContact::squared_motion_by_lambda(const ActiveSet&) const {
-  double speed = 0.0;
-  for (const Candidate& candidate : candidates_)
-    speed = std::max(speed, candidate.obstacle().greatest_speed(scales_.length) / scales_.length);
-  return inner_.squared_motion_by_lambda({}) + speed * speed;
-}
-
-Vector MultiplierContact::weights(const ActiveSet& active_set) const {
-  Vector weights = Vector::Zero(size(active_set));
-  weights.head(inner_.size({})) = inner_.weights({});
-  return weights;
+StateMetric MultiplierContact::metric(const ActiveSet& active_set) const {
+  StateMetric metric = inner_.metric({});
+  metric.squared_motion_by_lambda += speed_of_walls_ * speed_of_walls_;
+  const Index n = metric.weights.size(), contacts = size(active_set) - n;
+  metric.weights.conservativeResize(n + contacts);
+  metric.weights.tail(contacts).setZero();
+  return metric;
 }
 
 Vector MultiplierContact::guards(const State& state) const {
-  Vector guards = Vector::Constant(guard_count(state.active_set), out_of_reach);
+  Vector guards = Vector::Constant(contact_count() + dimensions(state.active_set).bounds, out_of_reach);
   const Index n = inner_.size({});
   for (Index j = 0; j < contact_count(); ++j)
     if (!state.active_set[static_cast<std::size_t>(j)] && !has_opposite(j)) guards[j] = open_guard(j, state);

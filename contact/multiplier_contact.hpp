@@ -49,16 +49,11 @@ class MultiplierContact final : public System, public FrictionalContact, public 
   MultiplierContact(const Equations& inner, std::vector<Candidate> candidates, const ContactScales& scales,
                     const ContactLaw& law = {});
 
-  Index size(const ActiveSet& active_set) const override {
-    return inner_.size({}) + multiplier_count(active_set) + static_cast<Index>(slipping(active_set).size());
-  }
+  Dimensions dimensions(const ActiveSet& active_set) const override;
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
-  Vector weights(const ActiveSet& active_set) const override;
-  std::vector<Index> turning_sets(const ActiveSet&) const override { return inner_.turning_sets({}); }
-  double squared_motion_by_lambda(const ActiveSet&) const override;
-  Index multiplier_count(const ActiveSet& active_set) const override;
+  StateMetric metric(const ActiveSet& active_set) const override;
 
   ActiveSet open_active_set() const override;
   Index contact_count() const { return static_cast<Index>(candidates_.size()); }
@@ -68,20 +63,17 @@ class MultiplierContact final : public System, public FrictionalContact, public 
   std::string watched_place(const State& state, Index j) const override;
   double guard(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
-  Index guard_count(const ActiveSet& active_set) const override {
-    return contact_count() + 2 * static_cast<Index>(sticking(active_set).size());
-  }
   Enforcement enforcement(const ActiveSet& active_set, Index j) const override {
     return {.multiplier = multiplier_index(active_set, j),
+            .force_scale = scales_.force,
             .compliance = springs_at(j).c * scales_.force / scales_.length,
             .two_sided = has_opposite(j)};
   }
-  double multiplier_scale() const override { return scales_.force; }
   Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override;
   StepVerdict check(const CheckedStep& step) const override;
   std::optional<PathKink> kink_between(const State& from, const State& to) const override;
 
-  const FrictionalContact* friction() const override { return rest_friction_ != nullptr ? this : nullptr; }
+  PathDependence path_dependence() const override { return {.friction = rest_friction_ != nullptr ? this : nullptr}; }
   bool is_rough(Index j) const { return candidate(j).friction() > 0.0; }
   bool is_rough(const ActiveSet&, Index j) const override { return is_rough(j); }
   double coefficient(const ActiveSet&, Index j) const override { return candidate(j).friction(); }
@@ -168,6 +160,7 @@ class MultiplierContact final : public System, public FrictionalContact, public 
   std::vector<Candidate> held_;                                            // whose points do not move but by λ
   std::vector<std::pair<const Candidate*, const Candidate*>> neighbours_;  // along a member, of one wall
   ContactScales scales_;
+  double speed_of_walls_ = 0.0;  // the greatest [length scale a unit of λ]
   std::vector<Springs> springs_;
   std::shared_ptr<const FrictionLayout> rest_friction_{};  // of open contacts; null where none has friction
 };

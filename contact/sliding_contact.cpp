@@ -145,7 +145,10 @@ SlidingContact::SlidingContact(const SlidingBody& body, std::vector<SlidingObsta
   setting->pinches = sliding::pinches_at_rest(*setting, SlidingState(rest));
   open_ = sliding::pinched_active_set(*setting, SlidingState(rest));
   setting_ = std::move(setting);
-  for (const SlidingObstacle& obstacle : setting_->obstacles) has_friction_ = has_friction_ || obstacle.is_rough();
+  for (const SlidingObstacle& obstacle : setting_->obstacles) {
+    has_friction_ = has_friction_ || obstacle.is_rough();
+    speed_of_walls_ = std::max(speed_of_walls_, obstacle.surface->greatest_speed(scales.length) / scales.length);
+  }
 }
 
 SlidingContact::~SlidingContact() = default;
@@ -163,35 +166,29 @@ const std::vector<SlidingObstacle>& SlidingContact::obstacles() const { return s
 
 // --- the equations --------------------------------------------------------------------------------------------------
 
-Index SlidingContact::size(const ActiveSet& active_set) const { return SlidingUnknowns(active_set).size(); }
-
-Index SlidingContact::multiplier_count(const ActiveSet& active_set) const {
-  return SlidingUnknowns(active_set).multipliers();
+Dimensions SlidingContact::dimensions(const ActiveSet& active_set) const {
+  const SlidingUnknowns index(active_set);
+  return {.unknowns = index.size(),
+          .multipliers = index.multipliers(),
+          .bounds = static_cast<Index>(sliding_layout(active_set).bounds().size())};
 }
 
 Enforcement SlidingContact::enforcement(const ActiveSet& active_set, Index j) const {
   const auto contact = static_cast<std::size_t>(j);
   return {.multiplier = SlidingUnknowns(active_set).force(contact),
+          .force_scale = scales().force,
           .two_sided = sliding_layout(active_set).is_pinched(contact)};
 }
 
 // An obstacle counts as a structure that goes with it would.
-double SlidingContact::squared_motion_by_lambda(const ActiveSet& active_set) const {
-  double speed = 0.0;
-  for (const SlidingObstacle& obstacle : setting_->obstacles)
-    speed = std::max(speed, obstacle.surface->greatest_speed(setting_->scales.length) / setting_->scales.length);
-  return sliding_layout(active_set).mesh().squared_motion_by_lambda() + speed * speed;
-}
-
-std::vector<Index> SlidingContact::turning_sets(const ActiveSet& active_set) const {
-  return sliding_layout(active_set).mesh().turning_sets();
-}
-
-Vector SlidingContact::weights(const ActiveSet& active_set) const {
+StateMetric SlidingContact::metric(const ActiveSet& active_set) const {
   const SlidingUnknowns index(active_set);
-  Vector weights = Vector::Zero(index.size());
-  weights.head(index.nodes) = sliding_layout(active_set).mesh().weights();
-  return weights;
+  const StateMetric& of_mesh = sliding_layout(active_set).mesh().metric();
+  StateMetric metric{.weights = Vector::Zero(index.size()),
+                     .squared_motion_by_lambda = of_mesh.squared_motion_by_lambda + speed_of_walls_ * speed_of_walls_,
+                     .turning_sets = of_mesh.turning_sets};
+  metric.weights.head(index.nodes) = of_mesh.weights;
+  return metric;
 }
 
 void SlidingContact::residual(const State& state, Eigen::Ref<Vector> F) const {
@@ -206,10 +203,6 @@ double SlidingContact::energy(const State& state) const { return mesh_of(state).
 
 // --- side conditions ------------------------------------------------------------------------------------------------
 
-Index SlidingContact::guard_count(const ActiveSet& active_set) const {
-  return static_cast<Index>(active_set.contacts() + sliding_layout(active_set).bounds().size());
-}
-
 Vector SlidingContact::guards(const State& state) const { return guards_of(*setting_, SlidingState(state)); }
 
 double SlidingContact::guard(const State& state, Index j) const { return guard_of(*setting_, SlidingState(state), j); }
@@ -222,8 +215,9 @@ Row SlidingContact::guard_gradient(const State& state, Index j) const {
 GuardsAlong SlidingContact::guards_along(const State& state, const Direction& direction) const {
   const SlidingState at(state);  // what bounds share is found once for both
   const SlidingMotion motion{.at = at, .direction = direction};
-  GuardsAlong along{.values = guards_of(*setting_, at), .rates = Vector(guard_count(state.active_set))};
+  GuardsAlong along{.values = guards_of(*setting_, at)};
   Vector& rates = along.rates;
+  rates.resize(along.values.size());
   for (Index j = 0; j < rates.size(); ++j)
     rates[j] = is_bound(at, j) ? bound_of(at, j).rate(*setting_, motion)
                                : apply(guard_gradient_of_contact(*setting_, at, j), direction);

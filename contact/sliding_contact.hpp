@@ -38,17 +38,13 @@ class SlidingContact final : public System, public ContactQuery, public Friction
                  ContinuumChoice continuum = ContinuumChoice::symmetric);
   ~SlidingContact() override;
 
-  Index size(const ActiveSet& active_set) const override;
+  Dimensions dimensions(const ActiveSet& active_set) const override;
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
-  Vector weights(const ActiveSet& active_set) const override;
-  std::vector<Index> turning_sets(const ActiveSet& active_set) const override;
-  double squared_motion_by_lambda(const ActiveSet& active_set) const override;
-  Index multiplier_count(const ActiveSet& active_set) const override;
+  StateMetric metric(const ActiveSet& active_set) const override;
 
   ActiveSet open_active_set() const override { return open_; }
-  Index guard_count(const ActiveSet& active_set) const override;
   Vector guards(const State& state) const override;
   double guard(const State& state, Index j) const override;
   Row guard_gradient(const State& state, Index j) const override;
@@ -56,7 +52,6 @@ class SlidingContact final : public System, public ContactQuery, public Friction
   std::string watched_place(const State& state, Index j) const override { return words_of(contact(state, j).label); }
   Vector unit_force(const State& state, Index j) const override;
   Enforcement enforcement(const ActiveSet& active_set, Index j) const override;
-  double multiplier_scale() const override { return scales().force; }
   Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override;
   CountedDirections counted_directions(const ActiveSet& active_set) const override;
 
@@ -68,7 +63,7 @@ class SlidingContact final : public System, public ContactQuery, public Friction
   Index separate_contacts(const ActiveSet& active_set) const override;
   ActiveSet canonical_active_set(const State& state) const override;
 
-  const FrictionalContact* friction() const override { return has_friction_ ? this : nullptr; }
+  PathDependence path_dependence() const override { return {.friction = has_friction_ ? this : nullptr}; }
   bool is_rough(const ActiveSet& active_set, Index j) const override { return coefficient(active_set, j) > 0.0; }
   bool contacts_move() const override { return true; }
   std::string why_not_modelled(const ActiveSet& active_set, Index j) const override;
@@ -191,6 +186,7 @@ class SlidingContact final : public System, public ContactQuery, public Friction
   std::unique_ptr<const SlidingSetting> setting_;
   ActiveSet open_;
   bool has_friction_ = false;
+  double speed_of_walls_ = 0.0;  // the greatest [length scale a unit of λ]
 };
 
 }  // namespace arcwall

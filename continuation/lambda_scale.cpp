@@ -63,7 +63,7 @@ std::optional<double> natural_lambda_scale(TraceTools& tools, const State& start
   if (!at.converged()) return std::nullopt;
   const double dlambda = at.tangent.dlambda;
   const double moves = std::sqrt(metric.inner_x(at.tangent, at.tangent) +
-                                 dlambda * dlambda * tools.system.squared_motion_by_lambda(start.active_set));
+                                 dlambda * dlambda * tools.system.metric(start.active_set).squared_motion_by_lambda);
   const double rate = std::abs(dlambda) / moves;
   if (!(std::isfinite(rate) && rate > 0.0) || first <= unmoved * rate) return std::nullopt;
   const Direction t{.dx = at.tangent.dx / moves, .dlambda = dlambda / moves};

@@ -33,7 +33,7 @@ ActiveSet strictly_active(const UnilateralSystem& system, const State& state, do
   for (std::size_t j = 0; j < active_set.size(); ++j) {
     const Enforcement how = system.enforcement(state.active_set, static_cast<Index>(j));
     if (how.two_sided || !how.multiplier) continue;
-    if (state.x[*how.multiplier] <= force_tolerance * system.multiplier_scale()) active_set[j] = 0;
+    if (state.x[*how.multiplier] <= force_tolerance * how.force_scale) active_set[j] = 0;
   }
   return active_set;
 }

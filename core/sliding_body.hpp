@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/linearization.hpp"
+#include "core/equations.hpp"
 
 namespace arcwall {
 
@@ -91,9 +91,8 @@ class SlidingMesh {
   /// s has as many entries, strand by strand in ascending order.
   virtual Index breakpoints() const = 0;
 
-  /// Weights of the squared norm of x in the path metric; and the square of the length by which λ moves supports.
-  virtual const Vector& weights() const = 0;
-  virtual double squared_motion_by_lambda() const = 0;
+  /// How far apart two x are, as Equations::metric() has it.
+  virtual const StateMetric& metric() const = 0;
 
   virtual void residual(const MeshState& now, Eigen::Ref<Vector> F) const = 0;
 
@@ -177,9 +176,6 @@ class SlidingMesh {
 
   /// The same shape on another mesh of the body.
   virtual Vector transferred(const MeshState& now, const SlidingMesh& to, const Vector& s_to) const = 0;
-
-  /// Of each entry of x its set, as Equations::turning_sets() has them.
-  virtual std::vector<Index> turning_sets() const = 0;
 };
 
 /// The layout of a state on such a mesh: x of the mesh stands first in State::x, s last.

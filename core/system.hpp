@@ -20,7 +20,8 @@ namespace arcwall {
 /// up to its *validity bounds*. These are guards after those of the contacts: positive while the layout is valid, and
 /// located as events. Another layout follows beyond each of them.
 ///
-/// A system with one layout overrides nothing. Others override transitions and guard_count, and if needed:
+/// A system with one layout overrides nothing. Others override transitions, count their bounds in dimensions(),
+/// and if needed override
 /// - penetrated_place, if contacts can arise between those of an active set;
 /// - check, to reject or repeat steps for what no guard sees; canonical_active_set, if two layouts share equilibria.
 ///

@@ -10,7 +10,7 @@
 namespace arcwall {
 
 /// x with other multiples of 2π of the rotations that do not count them, as near to `other` as can be: the same state.
-/// `sets` as Equations::turning_sets() has them; x and `other` may end before or behind them.
+/// `sets` as StateMetric has them; x and `other` may end before or behind them.
 inline Vector turned_towards(const Eigen::Ref<const Vector>& other, Vector x, const std::vector<Index>& sets) {
   if (sets.empty()) return x;
   const auto common = static_cast<std::size_t>(std::min({x.size(), other.size(), static_cast<Index>(sets.size())}));
@@ -36,7 +36,7 @@ inline Vector turned_towards(const Eigen::Ref<const Vector>& other, Vector x, co
 
 /// The same of two states on one active set.
 inline State turned_towards(const Equations& system, const State& other, State state) {
-  state.x = turned_towards(other.x, std::move(state.x), system.turning_sets(state.active_set));
+  state.x = turned_towards(other.x, std::move(state.x), system.metric(state.active_set).turning_sets);
   return state;
 }
 

@@ -19,32 +19,37 @@ struct GuardsAlong {
 /// How a contact is enforced.
 struct Enforcement {
   std::optional<Index> multiplier{};  ///< of its force in x; empty: it is open, or shares the force of another contact
+  double force_scale = 1.0;           ///< value in x of its force whose guard is 1 [force]
   double compliance = 0.0;            ///< gap = −compliance · force [scale of guards]; 0 if rigid
   bool two_sided = false;             ///< closed for either sign of its force: its guard never vanishes
 };
 
+/// The parts of a system by which equilibria depend on the path to them.
+struct PathDependence {
+  const FrictionalContact* friction = nullptr;  ///< of the contacts; null if none has friction
+  const PathHistory* history = nullptr;         ///< internal variables of the equations; null if they have none
+};
+
 /// Adds unilateral constraints to the equations: the second of three levels of a system.
 ///
-/// A ActiveSet has one entry a contact. Contact j is open (gap g_j ≥ 0, force 0) or closed (gap 0, force p_j ≥ 0, an
+/// An ActiveSet has one entry a contact. Contact j is open (gap g_j ≥ 0, force 0) or closed (gap 0, force p_j ≥ 0, an
 /// unknown). Its *guard* is the inequality constraint that must stay ≥ 0: the gap if open, the force if closed, scaled
 /// to order 1. The active set changes where a guard vanishes.
 ///
 /// A kink of a piecewise linear law is a compliant contact: its gap is the deformation left up to the kink, its force
 /// the deformation beyond it, its compliance 1. It has no multiplier.
 ///
-/// A system with contacts overrides open_active_set, guards, guard_gradient, unit_force, enforcement, transfer and
-/// multiplier_count. guard_gradient() is the derivative of guards(); guard() and guards_along() agree with both. A
-/// force enters F by the gradient of its gap, so K stays symmetric. transfer() there and back returns the same x if
-/// the omitted forces are zero.
+/// A system with contacts overrides open_active_set, guards, guard_gradient, unit_force, enforcement and transfer, and
+/// counts its multipliers in dimensions(). guard_gradient() is the derivative of guards(); guard() and guards_along()
+/// agree with both. A force enters F by the gradient of its gap, so K stays symmetric. transfer() there and back
+/// returns the same x if the omitted forces are zero.
 class UnilateralSystem : public Equations {
  public:
   /// Returns the active set with all contacts open and the initial layout.
   virtual ActiveSet open_active_set() const { return {}; }
 
-  /// Returns the number of guards: those of the contacts, then the validity bounds (see System).
-  virtual Index guard_count(const ActiveSet& active_set) const { return static_cast<Index>(active_set.size()); }
-
-  /// Returns all guards [-], guard_count() entries. A guard that cannot vanish is large.
+  /// Returns all guards [-]: those of the contacts, then the validity bounds (see System). A guard that cannot vanish
+  /// is large.
   virtual Vector guards(const State&) const { return {}; }
 
   /// Returns guard j alone [-].
@@ -72,18 +77,19 @@ class UnilateralSystem : public Equations {
   /// Returns how contact j is enforced on an active set.
   virtual Enforcement enforcement(const ActiveSet&, Index /*j*/) const { return {}; }
 
-  /// Returns the value in x of a contact force whose guard is 1 [force].
-  virtual double multiplier_scale() const { return 1.0; }
-
   /// Returns x for another active set of the same layout; new contact forces are zero. Also valid for directions.
   virtual Vector transfer(const Vector& x, const ActiveSet& /*from*/, const ActiveSet& /*to*/) const { return x; }
 
-  /// Returns the friction of the contacts; null if none has friction.
-  virtual const FrictionalContact* friction() const { return nullptr; }
+  /// Returns the parts that depend on the path: none by default.
+  virtual PathDependence path_dependence() const { return {}; }
 
-  /// Returns the internal variables of the equations; null if they have none.
-  virtual const PathHistory* history() const { return nullptr; }
+  /// Returns the number of guards.
+  Index guard_count(const ActiveSet& active_set) const {
+    return static_cast<Index>(active_set.size()) + dimensions(active_set).bounds;
+  }
 
+  const FrictionalContact* friction() const { return path_dependence().friction; }
+  const PathHistory* history() const { return path_dependence().history; }
   bool has_friction() const { return friction() != nullptr; }
 
   /// Returns the contacts that slip on an active set.

@@ -14,14 +14,11 @@ class IncrementalStructure final : public System {
   /// Stress-free, as `structure` is; every element must have an updated form: see can_be_updated().
   explicit IncrementalStructure(const Structure& structure) : present_(structure.updated()) {}
 
-  Index size(const ActiveSet& active_set) const override { return present_->size(active_set); }
+  Dimensions dimensions(const ActiveSet& active_set) const override { return present_->dimensions(active_set); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override { present_->residual(state, F); }
   void linearize(const State& state, Linearization& out) const override { present_->linearize(state, out); }
   double energy(const State& state) const override { return present_->energy(state); }
-  Vector weights(const ActiveSet& active_set) const override { return present_->weights(active_set); }
-  double squared_motion_by_lambda(const ActiveSet& active_set) const override {
-    return present_->squared_motion_by_lambda(active_set);
-  }
+  StateMetric metric(const ActiveSet& active_set) const override { return present_->metric(active_set); }
 
   /// The end of an increment: its configuration becomes the reference.
   void advance(const State& state) { present_ = present_->updated(state); }

@@ -41,26 +41,16 @@ class KinkedSprings final : public System {
   /// inner system has taken the other active set.
   Row force_gradient_off(std::size_t spring, const State& state) const;
 
-  Index size(const ActiveSet& active_set) const override { return inner_.size(active_set); }
+  Dimensions dimensions(const ActiveSet& active_set) const override { return inner_.dimensions(active_set); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
-  Vector weights(const ActiveSet& active_set) const override { return inner_.weights(active_set); }
-  std::vector<Index> turning_sets(const ActiveSet& active_set) const override {
-    return inner_.turning_sets(active_set);
-  }
-  double squared_motion_by_lambda(const ActiveSet& active_set) const override {
-    return inner_.squared_motion_by_lambda(active_set);
-  }
-  Index multiplier_count(const ActiveSet& active_set) const override { return inner_.multiplier_count(active_set); }
+  StateMetric metric(const ActiveSet& active_set) const override { return inner_.metric(active_set); }
   CountedDirections counted_directions(const ActiveSet& active_set) const override {
     return inner_.counted_directions(active_set);
   }
 
   ActiveSet open_active_set() const override;
-  Index guard_count(const ActiveSet& active_set) const override {
-    return inner_.guard_count(active_set.with_kinks({})) + kink_count();
-  }
   Vector guards(const State& state) const override;
   double guard(const State& state, Index j) const override;
   Row guard_gradient(const State& state, Index j) const override;
@@ -68,7 +58,6 @@ class KinkedSprings final : public System {
   std::string watched_place(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
   Enforcement enforcement(const ActiveSet& active_set, Index j) const override;
-  double multiplier_scale() const override { return inner_.multiplier_scale(); }
   Vector transfer(const Vector& x, const ActiveSet& from, const ActiveSet& to) const override {
     return inner_.transfer(x, from, to);
   }

@@ -90,10 +90,12 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
   const double L = structure.length_scale_;
   displacement_weight_ = 1.0 / (double(node_count) * L * L);
   rotation_weight_ = 1.0 / double(rotations);
-  weights_ = Vector::Constant(unknowns, displacement_weight_);
+  metric_.weights = Vector::Constant(unknowns, displacement_weight_);
   for (Index r = 0; r < structure.strands(); ++r)
     for (Index i = 0; i < nodes(r); ++i)
-      if (const Index turn = node_unknowns(r, i)[2]; turn != held) weights_[turn] = rotation_weight_;
+      if (const Index turn = node_unknowns(r, i)[2]; turn != held) metric_.weights[turn] = rotation_weight_;
+  metric_.squared_motion_by_lambda = squared_motion_by_lambda();
+  metric_.turning_sets = turning_sets();
 }
 
 // Rotations of inner nodes are sets by themselves, those of ends what supports and springs make of them.

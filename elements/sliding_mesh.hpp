@@ -21,9 +21,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   const ElementsPerSegment& elements_per_segment() const override { return cut_; }
   Index unknowns() const override { return assembly_.unknown_count(); }
   Index breakpoints() const override { return static_cast<Index>(breakpoints_.size()); }
-  const Vector& weights() const override { return weights_; }
-  double squared_motion_by_lambda() const override;
-  std::vector<Index> turning_sets() const override;
+  const StateMetric& metric() const override { return metric_; }
   void residual(const MeshState& now, Eigen::Ref<Vector> F) const override;
   void linearize(const MeshState& now, Linearization& out) const override;
   double energy(const MeshState& now) const override;
@@ -53,6 +51,9 @@ class SlidingStructureMesh final : public SlidingMesh {
   SlidingStructure::Reaction reaction(const MeshState& now, Index dof) const;
 
  private:
+  double squared_motion_by_lambda() const;
+  std::vector<Index> turning_sets() const;
+
   static constexpr Index held = -1;  // in place of an unknown, or of a breakpoint
 
   // An end of a segment: a breakpoint, or a fixed place.
@@ -204,7 +205,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   BlockAssembly assembly_{0, {}};
   std::vector<Four> fours_;
   std::vector<std::pair<Index, Index>> others_;  // strand and position of the elements that are evaluated one by one
-  Vector weights_;
+  StateMetric metric_;
   double displacement_weight_ = 0.0, rotation_weight_ = 0.0;
 };
 

@@ -254,25 +254,17 @@ double Structure::weight(Dof kind) const {
   return 0.0;
 }
 
-Vector Structure::weights(const ActiveSet&) const {
-  std::array<double, 5> of{};
-  for (std::size_t kind = 0; kind < of.size(); ++kind) of[kind] = weight(static_cast<Dof>(kind));
-  Vector weights(size({}));
-  for (Index i = 0; i < weights.size(); ++i) weights[i] = of[static_cast<std::size_t>(meaning(i).dof)];
-  return weights;
-}
-
-std::vector<Index> Structure::turning_sets(const ActiveSet&) const {
-  std::vector<Index> sets;
-  sets.reserve(dof_of_unknown_.size());
-  for (const std::int32_t dof : dof_of_unknown_) sets.push_back(turning_set_[static_cast<std::size_t>(dof)]);
-  return sets;
-}
-
-double Structure::squared_motion_by_lambda(const ActiveSet&) const {
-  double sum = 0.0;
-  nodal_.for_each_moved_support([&](Index dof, double rate) { sum += weight(meaning_of_dof(dof).dof) * rate * rate; });
-  return sum + heat_rate_ * heat_rate_;
+StateMetric Structure::made_metric(const std::vector<std::int32_t>& set_of_dof) const {
+  StateMetric metric{.weights = Vector(size({}))};
+  for (Index i = 0; i < metric.weights.size(); ++i) metric.weights[i] = weight(meaning(i).dof);
+  nodal_.for_each_moved_support([&](Index dof, double rate) {
+    metric.squared_motion_by_lambda += weight(meaning_of_dof(dof).dof) * rate * rate;
+  });
+  metric.squared_motion_by_lambda += heat_rate_ * heat_rate_;
+  metric.turning_sets.reserve(dof_of_unknown_.size());
+  for (const std::int32_t dof : dof_of_unknown_)
+    metric.turning_sets.push_back(set_of_dof[static_cast<std::size_t>(dof)]);
+  return metric;
 }
 
 std::optional<Index> Structure::unknown(Index dof) const {

@@ -116,17 +116,13 @@ class StructureBuilder;
 /// StructureBuilder.
 class Structure final : public System {
  public:
-  Index size(const ActiveSet&) const override { return assembly_.unknown_count(); }
+  Dimensions dimensions(const ActiveSet&) const override { return {.unknowns = assembly_.unknown_count()}; }
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
 
-  /// Returns the weights of ds² = mean over nodes of |Δu|²/L² + mean of Δθ², L = length_scale().
-  Vector weights(const ActiveSet&) const override;
-
-  std::vector<Index> turning_sets(const ActiveSet&) const override;
-
-  double squared_motion_by_lambda(const ActiveSet&) const override;
+  /// Returns ds² = mean over nodes of |Δu|²/L² + mean of Δθ², L = length_scale().
+  StateMetric metric(const ActiveSet&) const override { return metric_; }
 
   /// Returns the diagonal of the bounding box of the stress-free structure [length].
   double length_scale() const { return length_scale_; }
@@ -222,6 +218,7 @@ class Structure final : public System {
   Structure(Index unknowns, const IndexLists& blocks) : assembly_(unknowns, blocks) {}
   void arrange();                 // what follows from the elements
   double weight(Dof kind) const;  // in the path metric
+  StateMetric made_metric(const std::vector<std::int32_t>& set_of_dof) const;
   template <class ValueOf>
   std::unique_ptr<Structure> updated_at(const ValueOf& value_of) const;
   std::vector<bool> translation_free() const;                     // see Linearization
@@ -259,8 +256,8 @@ class Structure final : public System {
   BlockAssembly assembly_;
   double rotations_ = 1.0;  // how many there are
   double length_scale_ = 1.0, force_scale_ = 0.0, heat_rate_ = 0.0;
-  std::vector<std::int32_t> turning_set_;  // of each degree of freedom
-  std::set<Index> held_later_;             // see StructureBuilder::expect_hold()
+  StateMetric metric_;
+  std::set<Index> held_later_;  // see StructureBuilder::expect_hold()
 };
 
 /// Collects the description of a structure; build() creates it.

@@ -326,7 +326,6 @@ std::unique_ptr<Structure> StructureBuilder::numbered() const {
   structure->dof_of_unknown_ = std::move(dof_of_unknown);
   structure->meaning_of_dof_ = dofs_;
   structure->element_dofs_ = std::move(dofs_of_elements);
-  structure->turning_set_ = turning_sets();
   structure->held_later_ = expected_holds_;
   structure->length_scale_ = box_diagonal(positions_);
   const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.dof == Dof::rotation; };
@@ -450,6 +449,7 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   add_pressures(*structure, ramp);
   add_walls(*structure, ramp);
   sort_loads(*structure);
+  structure->metric_ = structure->made_metric(turning_sets());
   return structure;
 }
 

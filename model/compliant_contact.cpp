@@ -133,10 +133,12 @@ double CompliantContact::guard_of(const State& state, std::size_t j, double gap)
 }
 
 // A wall counts as a structure that goes with it would.
-double CompliantContact::squared_motion_by_lambda(const ActiveSet&) const {
+StateMetric CompliantContact::metric(const ActiveSet&) const {
   double speed = 0.0;
   for (const Wall& wall : walls_) speed = std::max(speed, wall.obstacle->greatest_speed(length_) / length_);
-  return structure_.squared_motion_by_lambda({}) + speed * speed;
+  StateMetric metric = structure_.metric({});
+  metric.squared_motion_by_lambda += speed * speed;
+  return metric;
 }
 
 Vector CompliantContact::guards(const State& state) const {

@@ -43,7 +43,7 @@ class CompliantContact final : public System, public ContactQuery {
   /// `structure` must outlive this. `length`: scale of gaps.
   CompliantContact(const Structure& structure, std::vector<Wall> walls, double length);
 
-  Index size(const ActiveSet&) const override { return structure_.size({}); }
+  Dimensions dimensions(const ActiveSet&) const override { return structure_.dimensions({}); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override {
     structure_.residual(state, F);
     if (friction_) friction_->add(state, F);
@@ -55,14 +55,12 @@ class CompliantContact final : public System, public ContactQuery {
   double energy(const State& state) const override {
     return structure_.energy(state) + (friction_ ? friction_->energy(state) : 0.0);
   }
-  Vector weights(const ActiveSet&) const override { return structure_.weights({}); }
-  std::vector<Index> turning_sets(const ActiveSet&) const override { return structure_.turning_sets({}); }
-  double squared_motion_by_lambda(const ActiveSet&) const override;
+  StateMetric metric(const ActiveSet&) const override;
 
   ActiveSet open_active_set() const override {
     return ActiveSet(walls_.size(), std::uint8_t{0}, friction_ ? friction_->rest() : nullptr);
   }
-  const PathHistory* history() const override { return friction_.get(); }
+  PathDependence path_dependence() const override { return {.history = friction_.get()}; }
 
   /// The friction of the walls; null if they have none.
   const CompliantFriction* elastic_friction() const { return friction_.get(); }

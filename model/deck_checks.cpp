@@ -18,7 +18,7 @@ namespace arcwall {
 
 bool moves_something(const Structure& structure) {
   if (structure.size({}) == 0) return false;
-  if (structure.squared_motion_by_lambda({}) > 0.0) return true;
+  if (structure.metric({}).squared_motion_by_lambda > 0.0) return true;
   Linearization now;
   structure.linearize({.x = Vector::Zero(structure.size({}))}, now);
   return now.F_lambda.size() > 0 && now.F_lambda.cwiseAbs().maxCoeff() > 0.0;

@@ -186,7 +186,7 @@ GivenContact given(const TouchingNodes& nodes, Reading reading) {
 }  // namespace
 
 DeckMesh::DeckMesh(const Model& model)
-    : model_(model), size_(model.structure().size({})), turning_sets_(model.structure().turning_sets({})) {
+    : model_(model), size_(model.structure().size({})), turning_sets_(model.structure().metric({}).turning_sets) {
   if (model.sliding() == nullptr) return;
   const Structure& structure = model.structure();
   readings_.resize(static_cast<std::size_t>(size_));

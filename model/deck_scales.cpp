@@ -13,7 +13,7 @@ namespace {
 
 // The greatest force by which supports that λ moves begin to move the structure, moments over its length [force].
 double force_of_movements(const Structure& structure) {
-  if (structure.squared_motion_by_lambda({}) == 0.0) return 0.0;
+  if (structure.metric({}).squared_motion_by_lambda == 0.0) return 0.0;
   const auto start = Tracer(structure, {.x = Vector::Zero(structure.size({}))}, {}).next();
   if (!start) return 0.0;
   const Direction& tangent = start->to.tangent;

@@ -22,7 +22,7 @@ Vector moves_alike(const Vector& weights) {
 Vector moves_alike(const SlidingStructure& structure, const State& state) {
   const SlidingMesh& mesh = mesh_of(state);
   Vector steps = Vector::Zero(state.x.size());
-  steps.head(mesh.unknowns()) = moves_alike(mesh.weights());
+  steps.head(mesh.unknowns()) = moves_alike(mesh.metric().weights);
   for (Index k = 0; k < mesh.breakpoints(); ++k)
     steps[state.x.size() - mesh.breakpoints() + k] = relative_move * structure.length(mesh.breakpoint(k).first);
   return steps;

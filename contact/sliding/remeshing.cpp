@@ -16,7 +16,7 @@ namespace {
 // The length by which a direction moves the nodes of a mesh, in the path metric.
 double motion_of(const SlidingMesh& mesh, const Direction& direction) {
   const auto dx = direction.dx.head(mesh.unknowns());
-  return std::sqrt(dx.dot(mesh.weights().cwiseProduct(dx)));
+  return std::sqrt(dx.dot(mesh.metric().weights.cwiseProduct(dx)));
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std:
   };
 
   // The layout of an active set that has been left and come back to is another one with the same unknowns.
-  const std::vector<Index> turning_sets = tools.system.turning_sets(open);
+  const std::vector<Index> turning_sets = tools.system.metric(open).turning_sets;
   const auto is_here = [&](const VisitedCorner& v) {
     return std::abs(v.corner.lambda - here.lambda) <= coincidence_tolerance * metric.lambda_scale() &&
            v.corner.x.size() == here.x.size() &&

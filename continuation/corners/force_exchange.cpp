@@ -37,8 +37,8 @@ std::optional<ForceExchange> exchange_forces(TraceTools& tools, const State& sta
   ActiveSet with_new = state.active_set;
   with_new[j] = 1;
   ForceExchange exchange{.state = system.with_active_set(changed, with_new), .released = *released};
-  if (const auto k = system.enforcement(with_new, closing).multiplier)
-    exchange.state.x[*k] = force * system.multiplier_scale();
+  if (const Enforcement how = system.enforcement(with_new, closing); how.multiplier)
+    exchange.state.x[*how.multiplier] = force * how.force_scale;
   if (const auto k = system.enforcement(with_new, *released).multiplier) exchange.state.x[*k] = 0.0;
   return exchange;
 }

@@ -114,8 +114,10 @@ std::optional<Continuation> tangent_with(TraceTools& tools, const Corner& corner
   if (slips > 0 && solver.inner_is_regular()) {
     const Matrix D = slip_stiffness(solver, now);
     for (Index i = 0; i < slips; ++i) {
-      const Row slip = friction.slip_gradient(way.state, way.slipping[static_cast<std::size_t>(i)]);
-      way.relieved[i] = std::abs(D(i, i) * apply(slip, way.direction)) / system.multiplier_scale();
+      const Index contact = way.slipping[static_cast<std::size_t>(i)];
+      const Row slip = friction.slip_gradient(way.state, contact);
+      way.relieved[i] = std::abs(D(i, i) * apply(slip, way.direction)) /
+                        system.enforcement(way.state.active_set, contact).force_scale;
     }
   }
   return way;

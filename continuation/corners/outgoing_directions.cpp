@@ -72,12 +72,12 @@ std::optional<RateProblem> reduce_by_gap(const UnilateralSystem& system, RatePro
 
 // The force of an open contact, or the change of the equation of one that is held, by which its guard changes by one.
 Vector unit_cause(const UnilateralSystem& system, const State& corner, const State& open, Index contact) {
-  const auto force = system.enforcement(open.active_set, contact).multiplier;
-  if (!force) return system.unit_force(open, contact);
+  const Enforcement how = system.enforcement(open.active_set, contact);
+  if (!how.multiplier) return system.unit_force(open, contact);
   const State all_open = system.with_active_set(corner, corner.active_set.all_open());
   const double length = system.unit_force(all_open, contact).norm() /
-                        (system.guard_gradient(all_open, contact).dx.norm() * system.multiplier_scale());
-  return -length * Vector::Unit(open.x.size(), *force);
+                        (system.guard_gradient(all_open, contact).dx.norm() * how.force_scale);
+  return -length * Vector::Unit(open.x.size(), *how.multiplier);
 }
 
 // With those contacts held; `unresisted` is the one whose motion is not told from round-off, if there is one.
@@ -287,8 +287,9 @@ std::vector<OutgoingDirection> direction_of(const UnilateralSystem& system, cons
   way.direction.dlambda = motion.dlambda;
   way.direction.dx = system.transfer(motion.dx, problem.open.active_set, way.active_set);
   for (Index i = 0; i < p.size(); ++i)
-    if (const auto k = system.enforcement(way.active_set, degenerate[static_cast<std::size_t>(i)]).multiplier)
-      way.direction.dx[*k] = p[i] * system.multiplier_scale();
+    if (const Enforcement how = system.enforcement(way.active_set, degenerate[static_cast<std::size_t>(i)]);
+        how.multiplier)
+      way.direction.dx[*how.multiplier] = p[i] * how.force_scale;
   return {std::move(way)};
 }
 

@@ -112,14 +112,13 @@ bool DeflatedNewton::newton_step(const State& state, Vector& step) {
 // 1/(1 − s), s = ∇(log m) · step
 double DeflatedNewton::factor(const State& state, const Vector& step) const {
   constexpr double least = 1e-3;  // of |1 − s|
-  const Vector weights = system_.weights(state.active_set);
-  const std::vector<Index> sets = system_.turning_sets(state.active_set);
+  const StateMetric metric = system_.metric(state.active_set);
   double s = 0.0;
   for (const Vector& known : known_) {
     const Index n = known.size();
-    const Vector off = state.x.head(n) - turned_towards(state.x, known, sets);
-    const double r2 = std::max(weighted_square(weights.head(n), off), 1e-300);
-    const double along = (weights.head(n).array() * off.array() * step.head(n).array()).sum();
+    const Vector off = state.x.head(n) - turned_towards(state.x, known, metric.turning_sets);
+    const double r2 = std::max(weighted_square(metric.weights.head(n), off), 1e-300);
+    const double along = (metric.weights.head(n).array() * off.array() * step.head(n).array()).sum();
     const double ratio = deflation_length * deflation_length / r2;
     s -= 2.0 * along / r2 * ratio / (1.0 + ratio);
   }
@@ -128,12 +127,11 @@ double DeflatedNewton::factor(const State& state, const Vector& step) const {
 }
 
 bool DeflatedNewton::is_known(const State& state) const {
-  const Vector weights = system_.weights(state.active_set);
-  const std::vector<Index> sets = system_.turning_sets(state.active_set);
+  const StateMetric metric = system_.metric(state.active_set);
   return std::any_of(known_.begin(), known_.end(), [&](const Vector& known) {
     const Index n = known.size();
-    const Vector off = state.x.head(n) - turned_towards(state.x, known, sets);
-    return weighted_square(weights.head(n), off) <= is_known_one * is_known_one;
+    const Vector off = state.x.head(n) - turned_towards(state.x, known, metric.turning_sets);
+    return weighted_square(metric.weights.head(n), off) <= is_known_one * is_known_one;
   });
 }
 

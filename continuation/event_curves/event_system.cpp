@@ -106,22 +106,23 @@ std::optional<State> EventSystem::of_event(const State& event, double kappa) con
   return extended(*member, event, kappa, std::move(*border));
 }
 
-Index EventSystem::size(const ActiveSet& active_set) const { return layout_of(active_set).base_size + extra(); }
+Dimensions EventSystem::dimensions(const ActiveSet& active_set) const {
+  const EventLayout& layout = layout_of(active_set);
+  return {.unknowns = layout.base_size + extra(), .multipliers = layout.multipliers, .bounds = layout.guards};
+}
 
 double EventSystem::energy(const State& state) const {
   const auto member = at(state);
   return member ? member->system->energy(member->state) : std::numeric_limits<double>::quiet_NaN();
 }
 
-Vector EventSystem::weights(const ActiveSet& active_set) const {
+StateMetric EventSystem::metric(const ActiveSet& active_set) const {
   const EventLayout& layout = layout_of(active_set);
   Vector weights = Vector::Ones(layout.base_size + extra());
   weights.head(layout.base_size) = layout.weights;
   weights[layout.base_size] = 1.0 / (lambda_scale_ * lambda_scale_);
-  return weights;
+  return {.weights = std::move(weights)};
 }
-
-Index EventSystem::multiplier_count(const ActiveSet& active_set) const { return layout_of(active_set).multipliers; }
 
 // --- equations ------------------------------------------------------------------------------------------------------
 
@@ -249,8 +250,6 @@ void EventSystem::linearize(const State& state, Linearization& out) const {
 bool EventSystem::vanishes(Index guard) const {
   return std::find(event_.guards.begin(), event_.guards.end(), guard) != event_.guards.end();
 }
-
-Index EventSystem::guard_count(const ActiveSet& active_set) const { return layout_of(active_set).guards; }
 
 Vector EventSystem::guards(const State& state) const {
   const auto member = at(state);

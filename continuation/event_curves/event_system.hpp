@@ -72,15 +72,13 @@ class EventSystem final : public System {
   /// The metric of x and λ alone.
   Metric metric_of(const SystemFamily::Member& member) const;
 
-  Index size(const ActiveSet& active_set) const override;
+  Dimensions dimensions(const ActiveSet& active_set) const override;
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
-  Vector weights(const ActiveSet& active_set) const override;
-  Index multiplier_count(const ActiveSet& active_set) const override;
+  StateMetric metric(const ActiveSet& active_set) const override;
   CountedDirections counted_directions(const ActiveSet&) const override { return CountedDirections::none; }
 
-  Index guard_count(const ActiveSet& active_set) const override;
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
   GuardsAlong guards_along(const State& state, const Direction& direction) const override;

@@ -51,11 +51,11 @@ class PythonSystem final : public System {
   /// Of `size` unknowns, at least one. Raises TypeError where a method is missing.
   PythonSystem(const py::object& system, Vector weights);
 
-  Index size(const ActiveSet&) const override { return weights_.size(); }
+  Dimensions dimensions(const ActiveSet&) const override { return {.unknowns = weights_.size()}; }
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
-  Vector weights(const ActiveSet&) const override { return weights_; }
+  StateMetric metric(const ActiveSet&) const override { return {.weights = weights_}; }
 
   /// What was not finite last, since this was asked before.
   std::optional<NotFinite> take_not_finite() const { return std::exchange(not_finite_, std::nullopt); }

@@ -285,7 +285,7 @@ TEST(MultiplierContact, GuardsAreGapsAndForcesInTheirScales) {
   const ContactModel model(test::contact_beam(), test::all_walls(false), 0.3);
   const MultiplierContact& system = model.system();
   EXPECT_EQ(system.scales().force, 3.0);
-  EXPECT_EQ(system.multiplier_scale(), 3.0);
+  EXPECT_EQ(system.enforcement(system.open_active_set(), 0).force_scale, 3.0);
   Numbers numbers(63);
   const ActiveSet active_set = closed_every(system.contact_count(), 4);
   const State state = random_state(system, active_set, numbers);
@@ -376,7 +376,7 @@ TEST(MultiplierContact, UnitForceIsWhatAUnitOfTheForceGuardDoesToTheResidual) {
     ActiveSet active_set = open;
     active_set[static_cast<std::size_t>(j)] = 1;
     State closed = system.with_active_set(state, active_set);
-    closed.x[*system.multiplier_index(active_set, j)] = system.multiplier_scale();
+    closed.x[*system.multiplier_index(active_set, j)] = system.enforcement(active_set, j).force_scale;
     Vector F(closed.x.size()), F_open(state.x.size());
     system.residual(closed, F);
     system.residual(state, F_open);

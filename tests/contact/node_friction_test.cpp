@@ -18,7 +18,7 @@ namespace {
 
 class Springs final : public Equations {
  public:
-  Index size(const ActiveSet&) const override { return 2; }
+  Dimensions dimensions(const ActiveSet&) const override { return {.unknowns = 2}; }
   void residual(const State& state, Eigen::Ref<Vector> F) const override {
     F = state.x - state.lambda * Vec2(1.0, 0.0);
   }
@@ -139,7 +139,7 @@ namespace {
 // With a rotation beside the two displacements.
 class TurningSprings final : public Equations {
  public:
-  Index size(const ActiveSet&) const override { return 3; }
+  Dimensions dimensions(const ActiveSet&) const override { return {.unknowns = 3}; }
   void residual(const State& state, Eigen::Ref<Vector> F) const override { F = state.x; }
   void linearize(const State& state, Linearization& out) const override {
     out.F = state.x;

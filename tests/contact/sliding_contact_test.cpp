@@ -513,7 +513,8 @@ TEST(SlidingContact, UnitForcesAreTheResponseToAForceOfOne) {
     ActiveSet closed = open.active_set;
     closed[static_cast<std::size_t>(j)] = 1;
     State pushed = system.with_active_set(open, closed);
-    pushed.x[*system.enforcement(closed, j).multiplier] = system.multiplier_scale();
+    const Enforcement how = system.enforcement(closed, j);
+    pushed.x[*how.multiplier] = how.force_scale;
     Vector with(pushed.x.size());
     system.residual(pushed, with);
     Vector without(open.x.size());

@@ -19,8 +19,8 @@ struct Pendulum : test::SmoothToy {
     K = [](const Vector& x, double) { return test::scalar_matrix(std::cos(x[0])); };
     F_lambda = [](const Vector&, double) { return test::scalar(-1.0); };
   }
-  std::vector<Index> turning_sets(const ActiveSet&) const override {
-    return counts_turns ? std::vector<Index>() : std::vector<Index>{0};
+  StateMetric metric(const ActiveSet&) const override {
+    return {.weights = Vector::Ones(1), .turning_sets = counts_turns ? std::vector<Index>() : std::vector<Index>{0}};
   }
 };
 

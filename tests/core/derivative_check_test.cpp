@@ -34,7 +34,7 @@ const State somewhere{.x = Vector{{0.7, -0.4}}, .lambda = 0.3};
 struct Guarded final : SmoothToy {
   double factor = 1.0;
   explicit Guarded(double f) : SmoothToy(right()), factor(f) {}
-  Index guard_count(const ActiveSet&) const override { return 1; }
+  Dimensions dimensions(const ActiveSet&) const override { return {.unknowns = unknowns, .bounds = 1}; }
   Vector guards(const State& s) const override { return test::scalar(s.x[0] * s.x[0] * s.lambda); }
   Row guard_gradient(const State& s, Index) const override {
     return {.dx = Vector{{2.0 * s.x[0] * s.lambda, 0.0}}, .dlambda = factor * s.x[0] * s.x[0]};

@@ -88,7 +88,7 @@ TEST(TurningSets, AreSingleRotationsOfSlenderMembers) {
     load(described);
     const auto structure = described.builder.build();
     const State state = somewhere(*structure);
-    const auto sets = by_set(structure->turning_sets({}));
+    const auto sets = by_set(structure->metric({}).turning_sets);
     EXPECT_EQ(sets.size(), 7u);  // nodes of two members of three elements
     for (const auto& [set, unknowns] : sets) {
       EXPECT_EQ(unknowns.size(), 1u);
@@ -102,7 +102,7 @@ TEST(TurningSets, AreAllRotationsTogetherOfExactMembers) {
   for (const int order : {1, 2}) {
     const auto structure = frame(Theory::reissner, order).builder.build();
     const State state = somewhere(*structure);
-    const auto sets = by_set(structure->turning_sets({}));
+    const auto sets = by_set(structure->metric({}).turning_sets);
     ASSERT_EQ(sets.size(), 1u);
     const std::vector<Index>& all = sets.begin()->second;
     EXPECT_EQ(all.size(), order == 1 ? 7u : 13u);
@@ -119,7 +119,7 @@ TEST(TurningSets, LeaveOutWhatASpringOrASupportCounts) {
   builder.add_ground_stiffness(foot, 0.4);
   builder.add_spring(corner, end, 0.3);
   const auto structure = builder.build();
-  const std::vector<Index> sets = structure->turning_sets({});
+  const std::vector<Index> sets = structure->metric({}).turning_sets;
   const auto set_of = [&](Index dof) { return sets[static_cast<std::size_t>(structure->unknown(dof).value())]; };
   EXPECT_EQ(set_of(foot), -1);
   EXPECT_EQ(set_of(corner), set_of(end));
@@ -129,7 +129,7 @@ TEST(TurningSets, LeaveOutWhatASpringOrASupportCounts) {
 
   Frame exact = frame(Theory::reissner, 1);
   exact.builder.fix(exact.builder.shared_rotation(2).value());
-  EXPECT_TRUE(by_set(exact.builder.build()->turning_sets({})).empty());
+  EXPECT_TRUE(by_set(exact.builder.build()->metric({}).turning_sets).empty());
 }
 
 TEST(TurningSets, AreThoseOfMeshesThatSlide) {
@@ -146,7 +146,7 @@ TEST(TurningSets, AreThoseOfMeshesThatSlide) {
     mesh->residual({.x = at, .s = s, .lambda = 0.7}, value);
     return value;
   };
-  const auto sets = by_set(mesh->turning_sets());
+  const auto sets = by_set(mesh->metric().turning_sets);
   EXPECT_EQ(sets.size(), 11u);
   for (const auto& [set, unknowns] : sets) {
     Vector turned = x;

@@ -56,7 +56,7 @@ struct Bratu : System {
   explicit Bratu(Index points) : n(points) {}
   Index n;
 
-  Index size(const ActiveSet&) const override { return n; }
+  Dimensions dimensions(const ActiveSet&) const override { return {.unknowns = n}; }
   void residual(const State& s, Eigen::Ref<Vector> F) const override {
     for (Index i = 0; i < n; ++i) {
       const double left = i > 0 ? s.x[i - 1] : 0.0, right = i + 1 < n ? s.x[i + 1] : 0.0;

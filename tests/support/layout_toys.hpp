@@ -66,7 +66,9 @@ class SpreadingToy final : public LayoutToy {
   double lambda_on_span(double x) const { return x - 8.0 * c * std::pow(x - 1.0, 3); }
   State on_span(double x) const { return state_on(1, Vector{{x, 2.0 * (x - 1.0)}}, lambda_on_span(x)); }
 
-  Index size(const ActiveSet& active_set) const override { return 1 + layout_of(active_set); }
+  Dimensions dimensions(const ActiveSet& active_set) const override {
+    return {.unknowns = 1 + layout_of(active_set), .bounds = 1};
+  }
   Index separate_contacts(const ActiveSet&) const override { return 1; }  // the span is a contact zone
   void residual(const State& s, Eigen::Ref<Vector> F) const override {
     F[0] = s.x[0] - s.lambda;
@@ -95,7 +97,6 @@ class SpreadingToy final : public LayoutToy {
     return rest - c * std::pow(s.x[1], 3) * (s.x[0] - 1.0) + 0.375 * c * std::pow(s.x[1], 4);
   }
 
-  Index guard_count(const ActiveSet& active_set) const override { return static_cast<Index>(active_set.size()) + 1; }
   Vector guards(const State& s) const override {
     Vector all = Vector::Ones(guard_count(s.active_set));  // contacts hold
     all[all.size() - 1] = s.x.size() == 1 ? 1.0 - s.x[0] : s.x[1] - 0.5 * d0;
@@ -140,7 +141,7 @@ class RemeshingToy final : public LayoutToy {
  public:
   explicit RemeshingToy(double error_behind) : LayoutToy(1, 1), error(error_behind) {}
 
-  Index size(const ActiveSet&) const override { return 1; }
+  Dimensions dimensions(const ActiveSet&) const override { return {.unknowns = 1, .bounds = 1}; }
   void residual(const State& s, Eigen::Ref<Vector> F) const override {
     F[0] = s.x[0] - s.lambda - (layout_of(s.active_set) == 0 ? 0.0 : error);
   }
@@ -153,7 +154,6 @@ class RemeshingToy final : public LayoutToy {
   }
   double energy(const State& s) const override { return 0.5 * s.x[0] * s.x[0] - s.lambda * s.x[0]; }
 
-  Index guard_count(const ActiveSet&) const override { return 2; }
   Vector guards(const State& s) const override {
     return Vector{{1.0, layout_of(s.active_set) == 0 ? 1.0 - s.x[0] : 1.0}};
   }
@@ -173,7 +173,7 @@ class RemeshedFoldToy final : public System {
  public:
   explicit RemeshedFoldToy(double error_behind) : error(error_behind) {}
 
-  Index size(const ActiveSet&) const override { return 1; }
+  Dimensions dimensions(const ActiveSet&) const override { return {.unknowns = 1}; }
   void residual(const State& s, Eigen::Ref<Vector> F) const override { F[0] = off(s) * off(s) + s.lambda; }
   void linearize(const State& s, Linearization& out) const override {
     out.F.resize(1);
@@ -200,7 +200,7 @@ class BlindToy final : public System {
  public:
   mutable int inserted = 0;  ///< how often a contact was asked for
 
-  Index size(const ActiveSet&) const override { return 1; }
+  Dimensions dimensions(const ActiveSet&) const override { return {.unknowns = 1}; }
   void residual(const State& s, Eigen::Ref<Vector> F) const override { F[0] = s.x[0] - s.lambda; }
   void linearize(const State& s, Linearization& out) const override {
     out.F.resize(1);

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "core/system.hpp"
@@ -18,7 +19,7 @@ struct SmoothToy : System {
   std::function<Matrix(const Vector&, double)> K{};
   std::function<Vector(const Vector&, double)> F_lambda{};
 
-  Index size(const ActiveSet&) const override { return unknowns; }
+  Dimensions dimensions(const ActiveSet&) const override { return {.unknowns = unknowns}; }
   void residual(const State& s, Eigen::Ref<Vector> out) const override { out = F(s.x, s.lambda); }
   void linearize(const State& s, Linearization& out) const override {
     out.F = F(s.x, s.lambda);
@@ -184,9 +185,9 @@ struct LinearContactToy : System {
     return found;
   }
 
-  Index size(const ActiveSet& active_set) const override { return A.rows() + multiplier_count(active_set); }
-  Index multiplier_count(const ActiveSet& active_set) const override {
-    return static_cast<Index>(closed(active_set).size());
+  Dimensions dimensions(const ActiveSet& active_set) const override {
+    const auto forces = static_cast<Index>(closed(active_set).size());
+    return {.unknowns = A.rows() + forces, .multipliers = forces};
   }
   void residual(const State& s, Eigen::Ref<Vector> F) const override {
     const Index n = A.rows();
@@ -214,10 +215,10 @@ struct LinearContactToy : System {
     const Vector x = s.x.head(A.rows());
     return 0.5 * x.dot(A * x) - s.lambda * f.dot(x);
   }
-  Vector weights(const ActiveSet& active_set) const override {
+  StateMetric metric(const ActiveSet& active_set) const override {
     Vector w = Vector::Zero(size(active_set));
     w.head(A.rows()).setConstant(1.0 / double(A.rows()));
-    return w;
+    return {.weights = std::move(w)};
   }
 
   ActiveSet open_active_set() const override { return ActiveSet(static_cast<std::size_t>(G.rows()), 0); }
