@@ -8,7 +8,6 @@
 
 #include "answers/contact_pattern.hpp"
 #include "core/nearly_equal.hpp"
-#include "core/root_find.hpp"
 #include "model/event_names.hpp"
 
 namespace arcwall {
@@ -30,11 +29,15 @@ const std::optional<RecordRates>& rates_behind(const RecordPoint& point) {
   return point.rates_after ? point.rates_after : point.rates;
 }
 
-// dΠ/dλ where a segment begins; 0 where it is not known, or λ stands still.
-double slope_at_start(const RecordPoint& point) {
-  const std::optional<RecordRates>& rates = rates_behind(point);
-  return rates && rates->lambda != 0.0 ? rates->energy / rates->lambda : 0.0;
+// dΠ/dλ along a path, which is ∂Π/∂λ: the unknowns do no work. Empty where λ changes more slowly than `least`: Π, whose
+// rate is one of differences, hardly changes either.
+std::optional<double> energy_slope(const std::optional<RecordRates>& rates, double least) {
+  if (!rates || !(std::abs(rates->lambda) > least)) return std::nullopt;
+  return rates->energy / rates->lambda;
 }
+
+constexpr double standing = 1e-4;  // of the mean rate of λ between two points: λ turns at one of them
+constexpr double tiny = 1e-300;
 
 class Maker {
  public:
@@ -176,8 +179,10 @@ class Maker {
       const auto [low, high] = lambdas(map_.segments[i], record_);
       if (map_.segments[i].branch != *event.branch_end->partner || i == *from) continue;
       const double lambda = std::clamp(last.lambda, low, high);
-      const double off = std::abs(energy_at(map_.segments[i], record_, lambda) - last.energy) +
-                         std::abs((lambda - last.lambda) * slope_at_start(record_.points[map_.segments[i].first]));
+      const double off =
+          std::abs(energy_at(map_.segments[i], record_, lambda) - last.energy) +
+          std::abs(lambda - last.lambda) *
+              std::abs(energy_slope(rates_behind(record_.points[map_.segments[i].first]), 0.0).value_or(0.0));
       if (off >= least) continue;
       least = off;
       nearest = i;
@@ -287,17 +292,15 @@ double energy_at(const BranchMapSegment& segment, const Record& record, double l
   std::size_t i = segment.first;
   while (i + 1 < segment.last && (record.points[i + 1].lambda < lambda) == grows) ++i;
   const RecordPoint &a = record.points[i], &b = record.points[i + 1];
-  const double length = b.arc - a.arc, straight = b.lambda - a.lambda;
-  const std::optional<RecordRates>&from = rates_behind(a), &to = b.rates;
-  if (from && to && length > 0.0) {
-    const double off = a.lambda - lambda, from_rate = length * from->lambda, to_rate = length * to->lambda;
-    if (const auto t = off == 0.0 ? std::optional(0.0) : first_cubic_zero(off, from_rate, b.lambda - lambda, to_rate)) {
-      const double u = 1.0 - *t;
-      return u * u * (1.0 + 2.0 * *t) * a.energy + *t * *t * (3.0 - 2.0 * *t) * b.energy +
-             length * *t * u * (u * from->energy - *t * to->energy);
-    }
-  }
-  return straight == 0.0 ? a.energy : a.energy + (lambda - a.lambda) / straight * (b.energy - a.energy);
+  const double h = b.lambda - a.lambda;
+  if (h == 0.0) return a.energy;
+  const double straight = (b.energy - a.energy) / h, turning = standing * std::abs(h) / std::max(b.arc - a.arc, tiny);
+  const std::optional<double> from = energy_slope(rates_behind(a), turning), to = energy_slope(b.rates, turning);
+  const double slope_a = from.value_or(to ? 2.0 * straight - *to : straight);
+  const double slope_b = to.value_or(from ? 2.0 * straight - *from : straight);
+  const double t = (lambda - a.lambda) / h, u = 1.0 - t;
+  return u * u * (1.0 + 2.0 * t) * a.energy + t * t * (3.0 - 2.0 * t) * b.energy +
+         h * t * u * (u * slope_a - t * slope_b);
 }
 
 }  // namespace arcwall

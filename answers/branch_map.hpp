@@ -45,7 +45,8 @@ struct BranchMap {
 /// Empty for a run in load increments or in stages. `record` is a run of `model`.
 BranchMap branch_map_of(const Model& model, const Record& record);
 
-/// The energy of a segment at a λ of its range, by the cubics of energy and λ between its points along the path.
+/// The energy of a segment at a λ of its range, by cubics between its points with their slopes; next to a
+/// turning point of λ by a parabola.
 double energy_at(const BranchMapSegment& segment, const Record& record, double lambda);
 
 }  // namespace arcwall

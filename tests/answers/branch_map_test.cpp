@@ -101,6 +101,20 @@ TEST(BranchMap, InterpolatesTheEnergyByItsSlope) {
   EXPECT_LT(errors[1], 0.01 * errors[0]);
 }
 
+// The metric of a path changes along it, and so does what a rate by its length means: slopes by λ do not. Of the arch
+// the exchange is the same with steps a twentieth as long.
+TEST(BranchMap, InterpolatesWhereTheMetricChanges) {
+  std::vector<double> exchanges;
+  for (const char* const step : {"0.2", "0.01"}) {
+    const TracedDeck traced(test::example("arch"), {std::string("path.max_step=") + step});
+    const BranchMap map = branch_map_of(traced.model(), traced.record());
+    ASSERT_GE(map.ranges.size(), 2u);
+    exchanges.push_back(map.ranges[1].high);
+  }
+  EXPECT_NEAR(exchanges[0], 419.3458, 1e-3);
+  EXPECT_NEAR(exchanges[0], exchanges[1], 1e-5);
+}
+
 // Two branches with the same loads and energies at their ends are images of each other.
 TEST(BranchMap, MergesMirrorImages) {
   const TracedDeck traced(pulled_up);
