@@ -503,14 +503,6 @@ LeastGap least_gap(const deck::Wall& wall, const Structure& structure) {
   return least;
 }
 
-// The least radius of curvature of a circle or an ellipse.
-double least_radius(const deck::Outline& outline) {
-  if (const auto* circle = std::get_if<deck::CircleOutline>(&outline)) return circle->radius;
-  const auto [narrow, wide] =
-      std::minmax(std::get<deck::EllipseOutline>(outline).axes.x, std::get<deck::EllipseOutline>(outline).axes.z);
-  return narrow * narrow / wide;
-}
-
 }  // namespace
 
 deck::Deck with_walls_of_ramp(deck::Deck deck, const Structure& structure) {
@@ -521,7 +513,7 @@ deck::Deck with_walls_of_ramp(deck::Deck deck, const Structure& structure) {
     const LeastGap deepest = least_gap(wall, structure);
     const double back =
         -deepest.gap <= wall.interference + drawn ? std::max(wall.interference, -deepest.gap) : wall.interference;
-    if (!deck::has_friction(deck) && is_enclosed(deck, wall) && back < least_radius(*wall.outline))
+    if (!deck::has_friction(deck) && is_enclosed(deck, wall))
       wall.retracted = back;
     else
       wall.motion = deck::WallMotion{.x = back * deepest.normal.x(),

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <set>
 #include <utility>
 
 #include "contact/outline.hpp"
@@ -338,28 +337,32 @@ std::string why_tapers_hold_contact(const Deck& deck) {
   return {};
 }
 
+namespace {
+
+// The centre of the circle through three points; far away or nowhere where they lie in a line.
+Vector centre_through(const Vector& a, const Vector& b, const Vector& c) {
+  const double bx = b.x - a.x, bz = b.z - a.z, cx = c.x - a.x, cz = c.z - a.z;
+  const double area = 2.0 * (bx * cz - bz * cx), of_b = bx * bx + bz * bz, of_c = cx * cx + cz * cz;
+  return {.x = a.x + (cz * of_b - bz * of_c) / area, .z = a.z + (bx * of_c - cx * of_b) / area};
+}
+
+}  // namespace
+
 bool is_enclosed(const Deck& deck, const Wall& wall) {
   const auto* circle = wall.outline ? std::get_if<CircleOutline>(&*wall.outline) : nullptr;
-  const auto* ellipse = wall.outline ? std::get_if<EllipseOutline>(&*wall.outline) : nullptr;
-  if ((circle == nullptr && ellipse == nullptr) || (circle ? circle->keep : ellipse->keep) != Keep::outside)
-    return false;
-  const Vector& centre = circle ? circle->centre : ellipse->centre;
-  std::vector<double> directions;  // in which its centre sees the points
-  const auto add = [&](const Vector& at) { directions.push_back(std::atan2(at.z - centre.z, at.x - centre.x)); };
-  std::set<std::string> ends;
-  for (const Member& member : deck.members) {
-    if (!wall.members.empty() && std::find(wall.members.begin(), wall.members.end(), member.name) == wall.members.end())
-      continue;
-    ends.insert({member.from, member.to});
-    if (const auto* arc = std::get_if<Arc>(&member.axis)) add(arc->via);
-  }
-  for (const Point& point : deck.points)
-    if (ends.contains(point.name)) add(point.at);
-  if (directions.empty()) return false;
-  std::sort(directions.begin(), directions.end());
-  double widest = directions.front() + 2.0 * pi - directions.back();
-  for (std::size_t i = 1; i < directions.size(); ++i) widest = std::max(widest, directions[i] - directions[i - 1]);
-  return widest < pi;
+  if (circle == nullptr || circle->keep != Keep::outside || !(wall.interference < circle->radius)) return false;
+  const auto find = [&](const std::string& name) {
+    return std::find_if(deck.points.begin(), deck.points.end(), [&](const Point& point) { return point.name == name; });
+  };
+  return std::any_of(deck.members.begin(), deck.members.end(), [&](const Member& member) {
+    const auto& names = wall.members;
+    const bool concerned = names.empty() || std::find(names.begin(), names.end(), member.name) != names.end();
+    const auto* arc = std::get_if<Arc>(&member.axis);
+    const auto from = find(member.from), to = find(member.to);
+    if (!concerned || arc == nullptr || from == deck.points.end() || to == deck.points.end()) return false;
+    const Vector centre = centre_through(from->at, arc->via, to->at);
+    return std::hypot(centre.x - circle->centre.x, centre.z - circle->centre.z) <= wall.interference;
+  });
 }
 
 PointsOfContact points_of_contact(const Deck& deck) {
@@ -382,7 +385,7 @@ PointsOfContact points_of_contact(const Deck& deck) {
   for (const Wall& wall : deck.walls)
     if (wall.interference > 0.0 && is_enclosed(deck, wall))
       return {.points = ContactPoints::nodes,
-              .why = "members lie around wall " + wall.name + ", which grows into place"};
+              .why = "a member lies around wall " + wall.name + ", which grows into place"};
   const WallsWithoutClearance without_clearance(deck);
   for (std::size_t i = 0; i < deck.walls.size(); ++i)
     for (const std::size_t k : without_clearance.beside(i))

@@ -584,9 +584,9 @@ std::optional<std::size_t> gripping_stage(const Deck& deck, std::size_t prescrib
 /// Whether a spring, or a foundation, resists displacements or rotations of this kind.
 bool acts_in(const Spring& spring, Dof direction);
 
-/// Whether members lie around a wall, as a ring around its shaft: a circle or an ellipse that they stay outside of,
-/// with its centre within the convex hull of their points. With an interference it grows into place in a deck without
-/// friction.
+/// Whether a member lies around a wall, as a ring around its shaft: a circle which it stays outside of, and the member
+/// an arc about the same centre, to within the wall's interference. In a deck without friction such a wall grows into
+/// place.
 bool is_enclosed(const Deck& deck, const Wall& wall);
 
 /// Where contact is looked for, and in words why: the deck says so, or it is the default.
