@@ -31,7 +31,7 @@ options_of() {
 for target in "${targets[@]}"; do options_of "$target" >/dev/null; done
 
 bash tests/configure.sh --sanitize
-folder=build/sanitize
+folder=$PWD/build/sanitize  # command_line works in a folder of its own
 cmake --build "$folder" --parallel 2 --target fuzz_seeds "${targets[@]/#/fuzz_}"
 mkdir -p "$folder/fuzz/findings"
 "$folder/tests/fuzz/fuzz_seeds" "$folder/fuzz/seeds"
