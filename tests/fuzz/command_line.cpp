@@ -57,7 +57,7 @@ constexpr std::array keys{"path.step",
                           "stage",
                           ""};
 constexpr std::array values{"1.0", "3",  "0",  "-1",  "1e400", "nan",   "x",      "",        "[0,-1]", "[nan,0]",
-                            "[1]", "{}", "[]", "'t'", "true",  "'arc'", "[-1,1]", "'nodes'", "\"",     "1e-12"};
+                            "[1]", "{}", "[]", "'t'", "true",  "'arc'", "[-1,1]", "'nodes'", "\"",     "0.001"};
 constexpr std::array places{"truss.toml", "done", "study", "sweep.toml", "missing", "measured.csv", "", "."};
 
 // Bytes as choices; all the same once they are used up.
