@@ -238,10 +238,6 @@ std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall, double half_
   return std::make_shared<MovingObstacle>(std::move(at_rest), motion);
 }
 
-bool concerns(const deck::Wall& wall, const std::string& member) {
-  return wall.members.empty() || std::find(wall.members.begin(), wall.members.end(), member) != wall.members.end();
-}
-
 namespace {
 
 // Whether the stress-free member lies on the line, its nodes and its tangents there.

@@ -30,9 +30,6 @@ std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall, double half_
 /// The outline of a wall that has one.
 std::unique_ptr<Outline> outline_of(const deck::Wall& wall);
 
-/// Whether a wall stands in the way of a member.
-bool concerns(const deck::Wall& wall, const std::string& member);
-
 /// How far the axis of a body of this height stays off an outline; profiles are touched by the faces themselves.
 double kept_off(const deck::Wall& wall, double height);
 

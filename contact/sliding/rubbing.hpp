@@ -57,8 +57,8 @@ LawOfFriction law_of_friction(const SlidingSetting& setting, const SlidingState&
 /// The same equilibrium with contacts in other modes: see FrictionalContact::with_modes.
 State with_modes(const SlidingSetting& setting, const SlidingState& at, std::span<const ModeOfContact> modes);
 
-/// Whether two states have the same contacts, which may open and close, on whatever mesh: none has parted, come
-/// together or moved to an end.
+/// Whether two states have the same contacts: on one mesh all, which may open and close; on two those that are closed.
+/// None has parted then, come together or moved to an end.
 bool has_same_contacts(const SlidingState& one, const SlidingState& other);
 
 /// How far a contact of a state, which slips, has slipped since an event at which contacts changed, see

@@ -303,15 +303,17 @@ double friction_of(const Deck& deck, const Wall& wall, const std::string& member
   return coefficient;
 }
 
+bool concerns(const Wall& wall, const std::string& member) {
+  return wall.members.empty() || std::find(wall.members.begin(), wall.members.end(), member) != wall.members.end();
+}
+
 bool has_friction(const Deck& deck) {
   if (deck.frictions.empty())
     return std::any_of(deck.walls.begin(), deck.walls.end(), [](const Wall& wall) { return wall.friction > 0.0; });
   return std::any_of(deck.walls.begin(), deck.walls.end(), [&](const Wall& wall) {
     return std::any_of(deck.members.begin(), deck.members.end(), [&](const Member& member) {
-      const bool concerns = wall.members.empty() ||
-                            std::find(wall.members.begin(), wall.members.end(), member.name) != wall.members.end();
       const auto is_rough_at = [&](double fraction) { return friction_of(deck, wall, member.name, fraction) > 0.0; };
-      return concerns && (is_rough_at(0.0) || is_rough_at(0.5) || is_rough_at(1.0));
+      return concerns(wall, member.name) && (is_rough_at(0.0) || is_rough_at(0.5) || is_rough_at(1.0));
     });
   });
 }
@@ -322,9 +324,7 @@ std::string why_tapers_hold_contact(const Deck& deck) {
     const Section* section = find(deck.sections, member.section);
     if (section == nullptr || !tapers(*section)) continue;
     for (const Wall& wall : deck.walls) {
-      const bool concerned = wall.members.empty() ||
-                             std::find(wall.members.begin(), wall.members.end(), member.name) != wall.members.end();
-      if (!concerned) continue;
+      if (!concerns(wall, member.name)) continue;
       if (std::holds_alternative<SectionTable>(section->shape))
         return "contact points do not move along member " + member.name + ", whose section " + section->name +
                " is a table";
@@ -351,15 +351,10 @@ Vector centre_through(const Vector& a, const Vector& b, const Vector& c) {
 bool is_enclosed(const Deck& deck, const Wall& wall) {
   const auto* circle = wall.outline ? std::get_if<CircleOutline>(&*wall.outline) : nullptr;
   if (circle == nullptr || circle->keep != Keep::outside || !(wall.interference < circle->radius)) return false;
-  const auto find = [&](const std::string& name) {
-    return std::find_if(deck.points.begin(), deck.points.end(), [&](const Point& point) { return point.name == name; });
-  };
   return std::any_of(deck.members.begin(), deck.members.end(), [&](const Member& member) {
-    const auto& names = wall.members;
-    const bool concerned = names.empty() || std::find(names.begin(), names.end(), member.name) != names.end();
     const auto* arc = std::get_if<Arc>(&member.axis);
-    const auto from = find(member.from), to = find(member.to);
-    if (!concerned || arc == nullptr || from == deck.points.end() || to == deck.points.end()) return false;
+    const Point *const from = find(deck.points, member.from), *const to = find(deck.points, member.to);
+    if (!concerns(wall, member.name) || arc == nullptr || from == nullptr || to == nullptr) return false;
     const Vector centre = centre_through(from->at, arc->via, to->at);
     return std::hypot(centre.x - circle->centre.x, centre.z - circle->centre.z) <= wall.interference;
   });

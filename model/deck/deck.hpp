@@ -584,6 +584,9 @@ std::optional<std::size_t> gripping_stage(const Deck& deck, std::size_t prescrib
 /// Whether a spring, or a foundation, resists displacements or rotations of this kind.
 bool acts_in(const Spring& spring, Dof direction);
 
+/// Whether a wall stands in the way of a member.
+bool concerns(const Wall& wall, const std::string& member);
+
 /// Whether a member lies around a wall, as a ring around its shaft: a circle which it stays outside of, and the member
 /// an arc about the same centre, to within the wall's interference. In a deck without friction such a wall grows into
 /// place.

@@ -130,10 +130,8 @@ void law_keys(Keys& keys, WallLaw& law, std::string_view otherwise) {
 
 void check_faces(Keys& keys, const Deck& deck, const Wall& wall) {
   std::vector<const Member*> members;
-  for (const Member& member : deck.members) {
-    const bool named = std::find(wall.members.begin(), wall.members.end(), member.name) != wall.members.end();
-    if (wall.members.empty() || named) members.push_back(&member);
-  }
+  for (const Member& member : deck.members)
+    if (concerns(wall, member.name)) members.push_back(&member);
   const Member* without = member_without_faces(deck, members);
   if (wall.contact_surface == ContactSurface::axis || without == nullptr) return;
   keys.report(

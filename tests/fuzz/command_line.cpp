@@ -20,7 +20,6 @@
 #include "apps/cli/interrupt.hpp"
 #include "apps/cli/program.hpp"
 #include "apps/output/files.hpp"
-#include "core/error.hpp"
 #include "tests/fuzz/require.hpp"
 
 namespace arcwall::fuzz {
