@@ -40,6 +40,11 @@ struct EventDerivative {
   double off = 0.0;             ///< then, by which differences of lower order differ
 };
 
+/// A rate by differences with the step that serves best, and by how much the next one differs.
+struct SettledRate {
+  double value = 0.0, off = 0.0;
+};
+
 /// How an event moves along λ where a number of the model changes (docs/theory.md, section 12): along the equilibria
 /// that fulfil the event's condition. That is a vanishing guard for changes of contact and what turns with them, λ′ = 0
 /// for a limit point, m′ = 0 for a monitor m that turns, its value for one that passes a value, and two tangents for a
@@ -57,15 +62,10 @@ class EventDerivatives {
  private:
   enum class Condition { limit, turning, value, guards, crossing };
 
-  // A difference with the step that serves best, and by how much the next one differs.
-  struct Settled {
-    double value = 0.0, off = 0.0;
-  };
-
   bool begin_regular(const Direction& along);
   bool begin_crossing(const BranchPoint& point);
   double step_on_one_piece(const Direction& d, double longest) const;
-  Settled bend(const Direction& k, const Direction& d);
+  SettledRate bend(const Direction& k, const Direction& d);
   // The change of the equilibrium with κ, and how much of it is unsure.
   struct Response {
     Direction d{}, unsure{};
@@ -76,15 +76,13 @@ class EventDerivatives {
   EventDerivative by_condition(const Response& response, const std::vector<SystemSample>& samples);
   double untold_of(const EventDerivative& found) const;
   bool persists(const std::vector<SystemSample>& samples) const;
-  Settled slope_of(const Response& response, const Settled& moves) const;
-  static double relative(const Settled& one);
+  SettledRate slope_of(const Response& response, const SettledRate& moves) const;
   std::optional<Direction> along_path(const Vector& f);
   std::optional<Direction> across_crossing(const Vector& f);
   template <typename Quantity>
-  Settled rate_of(const Row& gradient, const Direction& d, const std::vector<SystemSample>& samples,
-                  const Quantity& quantity) const;
-  static Settled over(const Settled& one, double divisor);
-  EventDerivative of_motion(const Response& response, const Settled& moves,
+  SettledRate rate_of(const Row& gradient, const Direction& d, const std::vector<SystemSample>& samples,
+                      const Quantity& quantity) const;
+  EventDerivative of_motion(const Response& response, const SettledRate& moves,
                             const std::vector<SystemSample>& samples) const;
   Direction along(const Direction& response, double moves) const;
   EventDerivative by_limit(const Response& response, const std::vector<SystemSample>& samples);
@@ -92,25 +90,23 @@ class EventDerivatives {
   EventDerivative by_guards(const Response& response, const std::vector<SystemSample>& samples) const;
   EventDerivative by_turning(const Response& response, const std::vector<SystemSample>& samples);
   double turning_beside(Corrector& corrector, const Observable& turning, const State& guess, double along) const;
-  Settled turning_along() const;
+  SettledRate turning_along() const;
   Vector second_derivative(const Direction& k, const Direction& d, double h);
-  Settled turning_rate(const Direction& d, const Vector& more, double more_of_gradient);
+  SettledRate turning_rate(const Direction& d, const Vector& more, double more_of_gradient);
   struct Turned {
-    Settled slope, moves;
+    SettledRate slope, moves;
   };
-  Turned turned(const Settled& along, const Settled& rate, const Response& response) const;
+  Turned turned(const SettledRate& along, const SettledRate& rate, const Response& response) const;
   struct TurnedBy {
     Turned equilibria, equations;
-    Settled rate;
+    SettledRate rate;
   };
   TurnedBy turned_by(const Response& response, const std::vector<SystemSample>& samples);
   std::vector<std::optional<double>> rates(const Direction& motion, const std::vector<SystemSample>& samples,
                                            const std::vector<Direction>& unsure) const;
-  static bool is_settled(const Settled& rate, double of, const std::vector<SystemSample>& samples);
+  static bool is_settled(const SettledRate& rate, double of, const std::vector<SystemSample>& samples);
   double greatest_work(const Vector& f) const;
-  EventDerivative settled(const Settled& slope, const std::vector<SystemSample>& samples) const;
-  template <typename Function>
-  static Settled with_best_step(double longest, int halvings, const Function& derivative);
+  EventDerivative settled(const SettledRate& slope, const std::vector<SystemSample>& samples) const;
   EventDerivative by_crossing(const Response& response, const std::vector<SystemSample>& samples);
 
   const System& system_;
@@ -125,8 +121,8 @@ class EventDerivatives {
   Direction tangent_;                          // of the path; of a branch point none
   std::shared_ptr<const Observable> watched_;  // what turns or passes a value; λ of a limit point
   std::vector<RatedQuantity> quantities_;
-  Settled turning_along_;            // the rate of its rate along the path, by equilibria
-  Settled turning_here_;             // and by the second derivatives of the equations
+  SettledRate turning_along_;        // the rate of its rate along the path, by equilibria
+  SettledRate turning_here_;         // and by the second derivatives of the equations
   std::vector<Index> guards_;        // that vanish
   Vector left_;                      // of a branch point: the left null vector w,
   double load_work_ = 0.0;           // the most work of the loads along it,
