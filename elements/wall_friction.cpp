@@ -27,7 +27,7 @@ std::array<WallPressure::Rubbed, WallPressure::rubbing_points> WallPressure::rub
     out[i].place_rate = place.rate;
     rubbing.add(Curve::Controls(rubbing.gradient(t).transpose() * place.slope), out[i].place_by.data());
   }
-  for (const PressedPart& part : wall_pressure::pressed_parts(touching.gaps(lambda)))
+  for (const PressedPart& part : touching.gaps(lambda).pressed_parts())
     for (std::size_t i = 0; i < rubbing_points; ++i) {
       const PressedPart whole = nearest_to(i);
       const PressedPart here{.from = std::max(part.from, whole.from), .to = std::min(part.to, whole.to)};

@@ -39,7 +39,7 @@ WallPressure::WallPressure(Shape shape, std::vector<Node> nodes, int stride, std
 
 std::vector<PressedPart> WallPressure::pressed(const double* u, double lambda) const {
   const Curve curve(*this, u);
-  return wall_pressure::pressed_parts(curve.gaps(lambda));
+  return curve.gaps(lambda).pressed_parts();
 }
 
 double WallPressure::evaluate_at(const double* u, double lambda, double* f, double* K, double* f_lambda) const {
@@ -48,7 +48,7 @@ double WallPressure::evaluate_at(const double* u, double lambda, double* f, doub
   if (K != nullptr) std::fill_n(K, n * n, 0.0);
   if (f_lambda != nullptr) std::fill_n(f_lambda, n, 0.0);
   const Curve curve(*this, u);
-  const auto parts = wall_pressure::pressed_parts(curve.gaps(lambda));
+  const auto parts = curve.gaps(lambda).pressed_parts();
   if (parts.empty()) return 0.0;
   double V = 0.0;
   Curve::Controls slope = Curve::Controls::Zero(), slope_rate = Curve::Controls::Zero();
@@ -83,16 +83,16 @@ double WallPressure::gap(const double* u, double lambda, double fraction) const 
 
 WallPressure::LeastGap WallPressure::least_gap(const double* u, double lambda) const {
   const Curve curve(*this, u);
-  const auto gap = curve.gaps(lambda);
-  const wall_pressure::Samples seen = wall_pressure::sampled(gap);
+  const Curve::GapAlong gap = curve.gaps(lambda);
+  const Curve::GapAlong::Samples seen = gap.sampled();
   LeastGap least;
   const auto look_at = [&](double t, double value) {
     if (value < least.value) least = {.fraction = t, .value = value};
   };
-  for (const wall_pressure::Sample& one : seen) look_at(one.t, one.value);
+  for (const Curve::GapAlong::Sample& one : seen) look_at(one.t, one.value);
   for (std::size_t k = 0; k + 1 < seen.size(); ++k)
     if (seen[k].rate < 0.0 && seen[k + 1].rate > 0.0)
-      if (const auto turn = wall_pressure::turn_between(gap, seen[k], seen[k + 1])) look_at(*turn, gap(*turn).value);
+      if (const auto turn = gap.turn_between(seen[k], seen[k + 1])) look_at(*turn, gap(*turn).value);
   return least;
 }
 
@@ -113,7 +113,7 @@ WallPressure::Resultant WallPressure::resultant(const double* u, double lambda, 
   Resultant out;
   const Curve curve(*this, u);
   std::array<Curve::Controls, 3> by_controls{Curve::Controls::Zero(), Curve::Controls::Zero(), Curve::Controls::Zero()};
-  for (const PressedPart& part : wall_pressure::pressed_parts(curve.gaps(lambda)))
+  for (const PressedPart& part : curve.gaps(lambda).pressed_parts())
     for_each_gauss_point(curve, lambda, part, [&](const GaussPoint& at) {
       const Vec2 force = -at.slope, force_rate = -at.slope_rate, arm = curve.place(at.t) - about;
       const Curve::Gradient gradient = curve.gradient(at.t), of_force = -at.second * gradient;
@@ -153,10 +153,10 @@ double WallPressure::pressure(const double* u, double lambda, double fraction) c
 
 bool WallPressure::leaves_surface(const double* u, double lambda) const {
   const Curve curve(*this, u);
-  const auto gap = curve.gaps(lambda);
-  const wall_pressure::Samples seen = wall_pressure::sampled(gap);
-  const auto is_there = [](const wall_pressure::Sample& one) { return std::isfinite(one.value); };
-  return std::any_of(seen.begin(), seen.end(), [](const wall_pressure::Sample& one) { return one.value < 0.0; }) &&
+  const Curve::GapAlong gap = curve.gaps(lambda);
+  const Curve::GapAlong::Samples seen = gap.sampled();
+  const auto is_there = [](const Curve::GapAlong::Sample& one) { return std::isfinite(one.value); };
+  return std::any_of(seen.begin(), seen.end(), [](const Curve::GapAlong::Sample& one) { return one.value < 0.0; }) &&
          !std::all_of(seen.begin(), seen.end(), is_there);
 }
 
