@@ -178,11 +178,13 @@ let traced = null;   // the text whose answer is shown
 let last = null;     // the last answer with a page, and the report that shows it
 let report = null;
 
+const has_ended = () => { throw new Error('trace-path has ended'); };
+const asked = (part, control, body) => fetch(part, { method: 'POST', body, signal: control.signal }).catch(has_ended);
 const lines_of = async function* (body) {
   const decoder = new TextDecoder();
   let rest = '';
   for (const reader = body.getReader();;) {
-    const { done, value } = await reader.read();
+    const { done, value } = await reader.read().catch(has_ended);
     if (done) return;
     const parts = (rest + decoder.decode(value, { stream: true })).split('\n');
     rest = parts.pop();
@@ -210,8 +212,7 @@ const trace_text = async () => {
   };
   let ended = false;
   try {
-    const answer = await fetch('trace', { method: 'POST', body: of, signal: control.signal })
-      .catch(() => { throw new Error('trace-path has ended'); });
+    const answer = await asked('trace', control, of);
     if (!answer.ok) throw new Error(await answer.text());
     for await (const line of lines_of(answer.body)) {
       if (line.progress !== undefined) {
@@ -224,7 +225,7 @@ const trace_text = async () => {
       go_on();  // the program traces the next text while this page draws the answer
       show_answer(line, of);
     }
-    if (!ended) throw new Error('trace-path has ended');
+    if (!ended) has_ended();
   } catch (problem) {
     if (!control.signal.aborted) say(`There is no result: ${problem.message}.`);
   }
@@ -347,8 +348,7 @@ const follow_event = async () => {
   let curve = null;
   note.textContent = 'tracing …';
   try {
-    const answer = await fetch('curve', { method: 'POST', signal: control.signal,
-      body: JSON.stringify({ text, kind, number: Number(number), parameter, low, high }) });
+    const answer = await asked('curve', control, JSON.stringify({ text, kind, number: Number(number), parameter, low, high }));
     if (!answer.ok) throw new Error(await answer.text());
     for await (const line of lines_of(answer.body)) {
       if (line.progress !== undefined) note.textContent = line.progress;

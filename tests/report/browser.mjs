@@ -10,6 +10,7 @@ import { pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
 
 export const [trace_path, examples, executable] = process.argv.slice(2);
+export const bound_on_hanging = 120_000;  // ms, on busy machines too
 export const desktop = { width: 1280, height: 900 }, phone = { width: 375, height: 740 };
 
 let browser;
@@ -44,7 +45,7 @@ after(async () => {
 // A page, and what it complains about or asks for: a file, or an address whose server has what it needs.
 export const open = async (file, options = {}, fragment = '') => {
   const context = await browser.newContext({ viewport: desktop, ...options });
-  context.setDefaultTimeout(120_000);  // a bound on hanging, on busy machines too
+  context.setDefaultTimeout(bound_on_hanging);
   const page = await context.newPage();
   const complaints = [], requests = [];
   page.on('console', (message) => {
@@ -65,6 +66,17 @@ export const open = async (file, options = {}, fragment = '') => {
 };
 
 export const has_plotly = (page) => page.evaluate(() => typeof Plotly !== 'undefined');
+
+// Clicks on a place of a plot of plotly's, once that has noticed the mouse there: before, it takes no click.
+export const click_in_plot = async (page, id, { x, y }) => {
+  const hovered = (is_so) => page.waitForFunction(({ id: name, is_so: so }) => (document.getElementById(name)._hoverdata !== undefined) === so,
+    { id, is_so });
+  await page.mouse.move(0, 0);
+  await hovered(false);
+  await page.mouse.move(x, y);
+  await hovered(true);
+  await page.mouse.click(x, y);
+};
 
 // What a button lets the reader save: its name, and its bytes.
 export const saved = async (page, button) => {

@@ -5,7 +5,8 @@ import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { by_keyboard_alone, desktop, has_no_serious_finding, examples, folder, has_plotly, open, phone, report_of, saved, trace_path } from './browser.mjs';
+import { isDeepStrictEqual } from 'node:util';
+import { bound_on_hanging, by_keyboard_alone, click_in_plot, desktop, has_no_serious_finding, examples, folder, has_plotly, open, phone, report_of, saved, trace_path } from './browser.mjs';
 import { add, channel_text, explore, move, opened, release, settled, text_of, upper } from './explorer.mjs';
 import { hostile_decks } from './hostile_decks.mjs';
 
@@ -23,11 +24,18 @@ const edit = async (page, text) => {
 };
 const processes_of = (server) => readFileSync(`/proc/${server.pid}/task/${server.pid}/children`, 'utf8').trim();
 const until = async (is_so, what) => {
-  for (let i = 0; i < 1000; ++i) {
+  const end = performance.now() + bound_on_hanging;
+  while (performance.now() < end) {
     if (await is_so()) return;
     await new Promise((resolve) => setTimeout(resolve, 20));
   }
   assert.fail(what);
+};
+// The one process that traces; the kernel's list is made while it changes.
+const tracing_process = async (server) => {
+  let processes = '';
+  await until(() => /^\d+$/.test(processes = processes_of(server)), 'one process traces');
+  return Number(processes);
 };
 
 test('thirty values of the gap: the tables are those of run', async (context) => {
@@ -89,7 +97,7 @@ test('the axes stay while a slider is dragged; when it is released all is drawn 
   const other = await explore(channel_text.replace('z = 0.2 }', 'z = 0.16 }'));
   const anew = await opened(other.address);
   await add(anew.page, upper);
-  assert.deepEqual(await drawn_curve(page), await drawn_curve(anew.page));
+  await until(async () => isDeepStrictEqual(await drawn_curve(page), await drawn_curve(anew.page)), 'it is drawn as by a new page');
   assert.deepEqual(await tables(page), await tables(anew.page));
   await anew.finish();
 
@@ -244,13 +252,12 @@ test('the load of an event over a number: the curve of trace-path curve, and a c
     const box = plot.getBoundingClientRect();
     return { x: box.left + xaxis._offset + xaxis.l2p(x[i]), y: box.top + yaxis._offset + yaxis.l2p(y[i]), value: x[i] };
   });
-  await page.mouse.move(place.x - 1, place.y - 1);
-  await page.mouse.move(place.x, place.y);
-  await page.waitForTimeout(150);
-  await page.mouse.click(place.x, place.y);
+  await click_in_plot(page, 'curve-plot', place);
+  const value_of_slider = async () => Number(await page.inputValue(`.number[data-key="${upper}"] input[type=text]`));
+  await until(async () => await value_of_slider() !== 0.2, 'a click chooses a value');
   await settled(page);
-  const chosen = Number(await page.inputValue(`.number[data-key="${upper}"] input[type=text]`));
-  assert.ok(points.x.some((x) => Number(x.toPrecision(12)) === chosen) && chosen !== 0.2, `${chosen}`);
+  const chosen = await value_of_slider();
+  assert.ok(points.x.some((x) => Number(x.toPrecision(12)) === chosen), `${chosen}`);
   await page.locator('#curve-event').selectOption({ index: 1 });
   await finish();
 });
@@ -337,8 +344,7 @@ test('cancelled runs leave nothing; the program ends with its page', async () =>
   const { address, home, server, ended } = await explore(slow);
   const { page, finish } = await open(address);
   await page.waitForFunction(() => /\d+ points/.test(document.getElementById('status').textContent));
-  const first = processes_of(server);
-  assert.match(first, /^\d+$/, 'one process traces');
+  const first = String(await tracing_process(server));
   await edit(page, slow.replace('step = 0.001', 'step = 0.002'));
   await until(() => !processes_of(server).split(' ').includes(first), 'the older process ends');
   const second = await open(address);
@@ -347,19 +353,17 @@ test('cancelled runs leave nothing; the program ends with its page', async () =>
   await until(() => /^\d+$/.test(processes_of(server)), 'a page that closes ends its trace');
   await edit(page, channel_text);
   await settled(page);
-  assert.equal(processes_of(server), '');
+  await until(() => processes_of(server) === '', 'its trace ends with the answer');
   assert.deepEqual(readdirSync(home), ['deck.toml'], 'no file is written');
   await edit(page, slow);
-  await until(() => processes_of(server) !== '', 'it traces again');
-  const last = processes_of(server);
+  const last = await tracing_process(server);
   await finish();
   assert.deepEqual(await ended, { status: 0, signal: null });
-  assert.throws(() => process.kill(Number(last), 0), /ESRCH/);
+  assert.throws(() => process.kill(last, 0), /ESRCH/);
 
   const killed = await explore(slow);
   const { page: other } = await open(killed.address);
-  await until(() => processes_of(killed.server) !== '', 'it traces');
-  const child = Number(processes_of(killed.server));
+  const child = await tracing_process(killed.server);
   killed.server.kill('SIGKILL');
   await until(() => { try { process.kill(child, 0); return /^State:\s+Z/m.test(readFileSync(`/proc/${child}/status`, 'utf8')); } catch { return true; } }, 'a killed program takes its trace along');
   await other.waitForFunction(() => /trace-path has ended/.test(document.getElementById('status').textContent));

@@ -4,7 +4,7 @@ import { execFileSync, spawnSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { channel, desktop, examples, folder, has_plotly, open, phone, report_of, trace_path } from './browser.mjs';
+import { channel, click_in_plot, desktop, examples, folder, has_plotly, open, phone, report_of, trace_path } from './browser.mjs';
 import { hostile_decks } from './hostile_decks.mjs';
 
 const shape = (page) => page.$eval('#shown .member:not(.band)', (path) => path.getAttribute('d'));
@@ -32,9 +32,7 @@ const place_of = (page, point) => page.evaluate((index) => {
 const click_on_curve = async (page, point) => {
   await page.locator('#load').scrollIntoViewIfNeeded();
   const { x, y } = await place_of(page, point);
-  await page.mouse.move(x - 1, y - 1);
-  await page.mouse.move(x, y);
-  await page.waitForTimeout(150);
+  if (await has_plotly(page)) return click_in_plot(page, 'plot', { x, y });
   await page.mouse.click(x, y);
 };
 

@@ -4,7 +4,7 @@ import { execFileSync } from 'node:child_process';
 import { copyFileSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { examples, folder, has_plotly, open, phone, trace_path } from './browser.mjs';
+import { click_in_plot, examples, folder, has_plotly, open, phone, trace_path } from './browser.mjs';
 
 const run = (...words) => execFileSync(trace_path, words, { stdio: 'ignore' });
 const study_of = (name, text, reports = []) => {
@@ -29,10 +29,7 @@ const click_at = async (page, id, x, y) => {
     const box = one.getBoundingClientRect(), pixels = (axis, value) => axis.l2p(axis.type === 'log' ? Math.log10(value) : value);
     return { x: box.left + xaxis._offset + pixels(xaxis, across), y: box.top + yaxis._offset + pixels(yaxis, up) };
   }, [id, x, y]);
-  await page.mouse.move(place.x - 1, place.y - 1);
-  await page.mouse.move(place.x, place.y);
-  await page.waitForTimeout(200);
-  await page.mouse.click(place.x, place.y);
+  await click_in_plot(page, id, place);
 };
 
 // λ is in proportion to E A: case 5 has E = 1e5 and A = 2.
