@@ -78,22 +78,30 @@ bool changes(const Candidate& candidate, const State& rest) {
   return gap.gradient.norm() > least;
 }
 
-// Whether the structure may move a point along a wall, besides across it: else what holds it there bears the friction.
-bool moves_along(const Candidate& candidate, const State& rest) {
+// How many ways the structure may move the point at which a wall's friction acts: at most two.
+Index motions(const Candidate& candidate, const State& rest) {
   constexpr double least = 1e-9;  // of the motion
-  if (!candidate.faces_wall(rest)) return true;
   PointKinematics at;
   candidate.rubbing_point().kinematics(rest, at);
-  const Eigen::MatrixXd motions = at.jacobian;
-  return motions.cols() >= 2 && Eigen::JacobiSVD<Eigen::MatrixXd>(motions).singularValues()[1] > least;
+  const Eigen::MatrixXd jacobian = at.jacobian;
+  if (jacobian.cols() == 0) return 0;
+  return (Eigen::JacobiSVD<Eigen::MatrixXd>(jacobian).singularValues().array() > least).count();
 }
 
-// Whether λ moves a point along the wall that it faces.
+// Whether the structure may move a point along a wall, besides across it: else what holds it there bears the friction.
+bool moves_along(const Candidate& candidate, const State& rest) {
+  return !candidate.faces_wall(rest) || motions(candidate, rest) == 2;
+}
+
+// Whether λ moves a point along the wall that it faces. Along a curved wall a point slides that λ moves one way and
+// that is free the other, wherever it touches.
 bool is_moved_along(const Candidate& candidate, const State& rest) {
   constexpr double least = 1e-9;  // of the motion
   PointKinematics at;
-  candidate.point().kinematics(rest, at);
-  return std::abs(cross(candidate.normal(rest), at.rate)) > least * at.rate.norm();
+  candidate.rubbing_point().kinematics(rest, at);
+  const double along = std::abs(cross(candidate.normal(rest), at.rate));
+  const bool is_curved = !candidate.obstacle().knots().empty();
+  return along > least * at.rate.norm() || (is_curved && motions(candidate, rest) == 1 && at.rate.norm() > 0.0);
 }
 
 bool acts_on_axis(const TouchAtRest& touch) { return touch.wall->contact_surface == deck::ContactSurface::axis; }

@@ -481,6 +481,19 @@ TEST(Grip, ThatDrawsATipAlongARoughWallIsRefused) {
   EXPECT_EQ(test::said_of(pressed_strip(0.0, grip + press + draw)), "");
 }
 
+// It is flat below the tip at rest, and the tip slides down its slope later.
+TEST(Grip, ThatPressesATipOnARoughHillIsRefused) {
+  const auto pressed = [](double friction) {
+    return cantilever(
+        "[[prescribed]]\nat = \"b\"\nz = -1.0\n[contact]\npoints = \"nodes\"\n[[wall]]\nname = \"hill\"\n"
+        "side = \"below\"\ncontact_surface = \"axis\"\n"
+        "profile = { type = \"circle\", centre = [1.0, -1.05], radius = 1.0 }\nfriction = " +
+        std::to_string(friction) + "\n[path]\nstep = 0.01\nstop = { lambda = [-0.1, 0.2] }\n");
+  };
+  EXPECT_NE(test::said_of(pressed(0.3)).find("a support moves m:1 along the wall"), std::string::npos);
+  EXPECT_EQ(test::said_of(pressed(0.0)), "");
+}
+
 // A number moves the place where a later stage grips, which is told and not left out.
 TEST(Grip, HasNoSensitivityOfItsEvents) {
   const TracedDeck run(cantilever(grip_of_z + floor_at(-0.5) + monitor("z", "b", "z") +
