@@ -34,6 +34,9 @@ bash tests/configure.sh --sanitize
 folder=$PWD/build/sanitize  # command_line works in a folder of its own
 cmake --build "$folder" --parallel 2 --target fuzz_seeds "${targets[@]/#/fuzz_}"
 mkdir -p "$folder/fuzz/findings"
+TMPDIR=$(mktemp -d)  # what a target leaves
+export TMPDIR
+trap 'rm -rf "$TMPDIR"' EXIT
 "$folder/tests/fuzz/fuzz_seeds" "$folder/fuzz/seeds"
 cat tests/fuzz/syntax.dict "$folder/fuzz/seeds/deck.dict" >"$folder/fuzz/deck.dict"
 
