@@ -94,6 +94,7 @@ double limit(const std::string& contact, int elements, double sense = 1.0) {
   double most = -std::numeric_limits<double>::infinity();
   for (const RecordPoint& point : run.points())
     if (run.record().stage_number(point.branch) == 1) most = std::max(most, sense * point.lambda);
+  EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop) << "the limit was passed";
   return 2.0 + sense * most;
 }
 
