@@ -17,18 +17,9 @@ namespace {
 using test::TracedDeck;
 
 // Two bars that a constant load of 2 pulls up, so that the load is λ − 2. They snap where it is ±2 h³ EA/(3√3 L³).
-const std::string pulled_up = [] {
-  std::string deck = test::low_truss + R"toml([path]
-step = 0.3
-branches = "primary"
-jumps = true
-stop = { lambda = [-3.0, 8.0] }
-)toml";
-  const std::string load = "load = [{ at = \"top\", force = [0.0, -1.0] }]";
-  return deck.replace(
-      deck.find(load), load.size(),
-      "load = [{ at = \"top\", force = [0.0, -1.0] }, { at = \"top\", force = [0.0, 2.0], constant = true }]");
-}();
+const std::string pulled_up =
+    test::low_truss + test::force("top", 0.0, 2.0, test::constant) +
+    test::path(R"(step = 0.3; branches = "primary"; jumps = true; stop = { lambda = [-3.0, 8.0] })");
 
 double snap_load() { return 2e4 / (3.0 * std::sqrt(3.0) * std::pow(101.0, 1.5)); }
 

@@ -154,7 +154,7 @@ TEST(CurveSession, KnowsItsFilesFromEditedOnes) {
 TEST(CurveSession, WhoseStatesAreOfAnotherDeckIsNotConfirmed) {
   const CurveSession session = traced(truss);
   std::string stiffer = truss;
-  stiffer.replace(stiffer.find("E = 1e4"), 7, "E = 2e4");
+  stiffer.replace(stiffer.find("E = 10000.0"), 11, "E = 20000.0");
   nlohmann::json kept = from_checkpoint(session.checkpoint(), "checkpoint");
   ASSERT_EQ(kept.at(1).at(1), truss);
   kept[1][1] = stiffer;

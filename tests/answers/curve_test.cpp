@@ -17,8 +17,11 @@
 #include "model/event_names.hpp"
 #include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::curve_test {
+
+using namespace test::tables;
 namespace {
 
 using test::TracedDeck;
@@ -100,16 +103,13 @@ TEST(EventCurve, OfATrussOnASpringHasTheCuspOfTheClosedForm) {
 // A steep truss sways, and a side load H lowers its limit load from the perfect one's by 0.60678 H^(2/3), a value found
 // by continuation of the closed form.
 TEST(EventCurve, OfAnImperfectionFollowsTheTwoThirdsLaw) {
-  const std::string deck = std::string(R"toml(
-title = "A steep truss with a side load"
-material.m = { E = 1.0 }
-section.s = { shape = "general", A = 1.0, I = 1.0 }
-point = { left = [-1.0, 0.0], top = [0.0, 5.0], right = [1.0, 0.0] }
-support = { left = ["x", "z"], right = ["x", "z"] }
-load = [{ at = "top", force = [0.0, -1.0] }, { at = "top", force = [1e-4, 0.0], constant = true }]
-path = { step = 0.005, stop = { event = "limit-point" } }
-monitor = [{ name = "w", at = "top", component = "z" }]
-)toml") + test::two_bars + R"toml([curve]
+  const std::string deck =
+      std::string(title("A steep truss with a side load") + material("m", 1.0) + general_section("s", 1.0, 1.0) +
+                  points({{"left", -1.0, 0.0}, {"top", 0.0, 5.0}, {"right", 1.0, 0.0}}) +
+                  supports({{"left", "x z"}, {"right", "x z"}}) + force("top", 0.0, -1.0) +
+                  force("top", 1e-4, 0.0, constant) + path(R"(step = 0.005; stop = { event = "limit-point" })") +
+                  monitor("w", "top", "z")) +
+      test::two_bars + R"toml([curve]
 event = { kind = "limit-point" }
 parameter = "load.1.force.0"
 range = [1e-9, 1e-4]
@@ -256,29 +256,14 @@ TEST(EventCurve, OfAMonitorThatTurnsIsThatOfOtherRunsSlow) {
 // Limit points of a pinned sine arch appear at a cusp, and the branch point overtakes them. Rise and load by shooting:
 // 0.057825384052 and 0.061386356, 0.138553363544 and 0.371987159883; at rise 0.12 the limit load is 0.262293877613.
 TEST(EventCurve, OfAPinnedArchHasItsCuspAndItsCrossingSlow) {
-  const std::string deck = R"toml(
-title = "Sine arch, central load"
-material.m = { E = 21000.0 }
-section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { l = [0.0, 0.0], r = [2.0, 0.0] }
-support = { l = ["x", "z"], r = ["x", "z"] }
-load = [{ at = "arch:0.5", force = [0.0, -1.0] }]
-path = { step = 0.01, branches = "primary", stop = { crown = [-0.19, 0.01] } }
-monitor = [{ name = "crown", at = "arch:0.5", component = "z" }]
-[member.arch]
-from = "l"
-to = "r"
-sine = { rise = 0.1, waves = 1 }
-theory = "elastica"
-elements = 20
-material = "m"
-section = "s"
-[curve]
-event = { kind = "limit-point" }
-parameter = "member.arch.sine.rise"
-range = [0.05, 0.15]
-output_at = [0.12]
-)toml";
+  const std::string deck =
+      title("Sine arch, central load") + material("m", 21000.0) + rectangle("s", 0.1, 0.1) +
+      points({{"l", 0.0, 0.0}, {"r", 2.0, 0.0}}) + supports({{"l", "x z"}, {"r", "x z"}}) +
+      force("arch:0.5", 0.0, -1.0) + path(R"(step = 0.01; branches = "primary"; stop = { crown = [-0.19, 0.01] })") +
+      monitor("crown", "arch:0.5", "z") + member("arch", "l", "r", "elastica", 20, "sine = { rise = 0.1, waves = 1 }") +
+      table(
+          "[curve]",
+          R"(event = { kind = "limit-point" }; parameter = "member.arch.sine.rise"; range = [0.05, 0.15]; output_at = [0.12])");
   const EventCurve curve = curve_of(deck);
   const auto cusps = specials(curve, CurveSpecialKind::cusp), crossings = specials(curve, CurveSpecialKind::crossing);
   ASSERT_EQ(cusps.size(), 1U);

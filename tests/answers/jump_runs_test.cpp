@@ -17,8 +17,11 @@
 #include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/expect_whole.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::jump_runs_test {
+
+using namespace test::tables;
 namespace {
 
 using test::TracedDeck;
@@ -217,16 +220,11 @@ component = "z"
 
 // With P L³ = z (25 − z²) a steep truss sways at z = √23 and falls to the other root of z³ − 25 z + 2 √23 = 0 below.
 TEST(JumpRuns, LeaveABranchPointWhoseBranchIsUnstable) {
-  const TracedDeck run(R"toml(
-title = "A steep truss"
-material.m = { E = 1.0 }
-section.s = { shape = "general", A = 1.0, I = 1.0 }
-point = { left = [-1.0, 0.0], top = [0.0, 5.0], right = [1.0, 0.0] }
-support = { left = ["x", "z"], right = ["x", "z"] }
-load = [{ at = "top", force = [0.0, -1.0] }]
-monitor = [{ name = "w", at = "top", component = "z" }]
-path = { step = 0.005, branches = "jump", stop = { lambda = [-1.0, 2.0] } }
-)toml" + test::two_bars);
+  const TracedDeck run(title("A steep truss") + material("m", 1.0) + general_section("s", 1.0, 1.0) +
+                       points({{"left", -1.0, 0.0}, {"top", 0.0, 5.0}, {"right", 1.0, 0.0}}) +
+                       supports({{"left", "x z"}, {"right", "x z"}}) + force("top", 0.0, -1.0) +
+                       monitor("w", "top", "z") +
+                       path(R"(step = 0.005; branches = "jump"; stop = { lambda = [-1.0, 2.0] })") + test::two_bars);
   const auto jumps = jumps_of(run.record());
   ASSERT_EQ(jumps.size(), 1u);
   EXPECT_EQ(jumps[0]->kind, EventKind::branch_point);
@@ -248,18 +246,11 @@ TEST(JumpRuns, EndBehindABoundThatTheJumpPasses) {
 // A half truss of height 0.3 snaps onto a floor at −0.1, where it would fall on by itself: the floor bears
 // λ + EA (L₀ − L)/L₀ · 0.1/L.
 TEST(JumpRuns, EndOnAFloorThatAloneHoldsTheStructure) {
-  const TracedDeck run(R"(
-title = "Snap onto a floor"
-material.m = { E = 1e6 }
-section.s = { shape = "general", A = 1e-3, I = 1e-9 }
-point = { a = [-1.0, 0.0], t = [0.0, 0.3] }
-support = { a = ["x", "z"], t = ["x"] }
-path = { step = 0.1, stop = { lambda = [-100.0, 30.0] }, branches = "jump" }
-member.l = { from = "a", to = "t", theory = "truss", strain = "engineering", material = "m", section = "s", elements = 1 }
-load = [{ at = "t", force = [0.0, -1.0] }]
-wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = -0.1 } }]
-monitor = [{ name = "z", at = "t", component = "z" }, { name = "floor", wall = "floor", component = "force-z" }]
-)");
+  const TracedDeck run(title("Snap onto a floor") + material("m", 1e6) + general_section("s", 1e-3, 1e-9) +
+                       points({{"a", -1.0, 0.0}, {"t", 0.0, 0.3}}) + supports({{"a", "x z"}, {"t", "x"}}) +
+                       path(R"(step = 0.1; stop = { lambda = [-100.0, 30.0] }; branches = "jump")") +
+                       bar("l", "a", "t") + force("t", 0.0, -1.0) + flat_wall("floor", "below", -0.1, on_axis) +
+                       monitor("z", "t", "z") + wall_monitor("floor", "floor", "force-z"));
   const double L0 = std::sqrt(1.09), L = std::sqrt(1.01);
   const RecordEvent& snaps = event_of(run, EventKind::limit_point);
   ASSERT_NE(snaps.jump, nullptr);
@@ -271,21 +262,15 @@ monitor = [{ name = "z", at = "t", component = "z" }, { name = "floor", wall = "
 // An arch under a round peg that moves down reaches its limit point between two nodes. With contact at nodes it is
 // still stable at that load, and comes to rest at the same state; from a little farther it snaps to its other side.
 TEST(JumpRuns, DoNotEndAtTheStateThatTheyLeave) {
-  const TracedDeck run(R"(
-title = "An arch under a peg"
-material.m = { E = 1.0 }
-section.s = { shape = "general", A = 17173.10076109166, I = 1.0 }
-point = { p0 = [0.0, 0.0], p1 = [1.0, 0.0] }
-member.m0 = { from = "p0", to = "p1", theory = "elastica", material = "m", section = "s", elements = 30, via = [0.5, 0.1621381779147173] }
-support = { p0 = ["x", "z", "rotation"], p1 = ["x", "z"] }
-path = { step = 0.05, branches = "jump", stop = { lambda = [-0.3, 1.0] } }
-monitor = [{ name = "mid", at = "m0:0.5", component = "z" }]
-[[wall]]
-name = "w0"
-contact_surface = "axis"
-outline = { type = "circle", centre = [0.5113197745886897, 0.2821381779147173], radius = 0.1 }
-motion = { z = -0.40534544478679324 }
-)");
+  const TracedDeck run(
+      title("An arch under a peg") + material("m", 1.0) + general_section("s", 17173.10076109166, 1.0) +
+      points({{"p0", 0.0, 0.0}, {"p1", 1.0, 0.0}}) +
+      member("m0", "p0", "p1", "elastica", 30, "via = [0.5, 0.1621381779147173]") +
+      supports({{"p0", "x z rotation"}, {"p1", "x z"}}) +
+      path(R"(step = 0.05; branches = "jump"; stop = { lambda = [-0.3, 1.0] })") + monitor("mid", "m0:0.5", "z") +
+      wall(
+          "w0",
+          R"(contact_surface = "axis"; outline = { type = "circle", centre = [0.5113197745886897, 0.2821381779147173], radius = 0.1 }; motion = { z = -0.40534544478679324 })"));
   const RecordEvent& snaps = event_of(run, EventKind::limit_point);
   ASSERT_NE(snaps.jump, nullptr);
   EXPECT_GT(snaps.jump->energy_released, 1.0);
@@ -331,15 +316,9 @@ TEST(JumpRuns, AreResumedToTheSameBits) {
 
 // The load comes in two stages; the second begins where the first has landed and gone on.
 TEST(JumpRuns, GoOnInTheNextStage) {
-  const TracedDeck run(truss("stop.lambda = [-1.0, 20.0]\n") + R"toml(
-[[stage]]
-name = "first"
-drives = ["load.0"]
-stop = { lambda = [-1.0, 4.0] }
-[[stage]]
-name = "second"
-drives = ["load.0"]
-)toml");
+  const TracedDeck run(truss("stop.lambda = [-1.0, 20.0]\n") +
+                       table("[[stage]]", R"(name = "first"; drives = ["load.0"]; stop = { lambda = [-1.0, 4.0] })") +
+                       table("[[stage]]", R"(name = "second"; drives = ["load.0"])"));
   const Record& record = run.record();
   ASSERT_EQ(record.branches.size(), 3u);
   EXPECT_EQ(record.branches[1].stage, 0);
@@ -353,17 +332,10 @@ drives = ["load.0"]
 
 // Branches of a stage are counted on from those of the stages before.
 TEST(JumpRuns, NameTheBranchThatFollowsInALaterStage) {
-  const TracedDeck run(truss("stop.lambda = [-1.0, 20.0]\n") + R"toml(
-[[stage]]
-name = "through"
-drives = ["load.0"]
-stop = { lambda = [-1.0, 4.0] }
-[[stage]]
-name = "back"
-drives = ["load.0"]
-step = -0.3
-stop = { lambda = [-20.0, 1.0] }
-)toml");
+  const TracedDeck run(
+      truss("stop.lambda = [-1.0, 20.0]\n") +
+      table("[[stage]]", R"(name = "through"; drives = ["load.0"]; stop = { lambda = [-1.0, 4.0] })") +
+      table("[[stage]]", R"(name = "back"; drives = ["load.0"]; step = -0.3; stop = { lambda = [-20.0, 1.0] })"));
   const std::vector<RecordBranch>& branches = run.record().branches;
   ASSERT_EQ(branches.size(), 4u);
   EXPECT_EQ(branches[0].end->detail, "continues after a jump as branch 1");
@@ -384,13 +356,13 @@ TEST(JumpRuns, LeadToTheEventsOfACurve) {
 TEST(JumpRuns, RefuseWhatLocatesNoEvents) {
   EXPECT_EQ(
       test::said_of(truss("events = \"detect\"\n")),
-      "deck.toml:28:12: path.branches: \"jump\" needs located events, and events is \"detect\"; leave out events, "
+      "deck.toml:40:12: path.branches: \"jump\" needs located events, and events is \"detect\"; leave out events, "
       "or write events = \"locate\"");
 }
 
 TEST(JumpRuns, RefuseAMethodThatEndsWhereTheLoadTurns) {
   EXPECT_EQ(test::said_of(truss("method = \"load\"\n")),
-            "deck.toml:28:12: path.branches: \"jump\" begins where λ turns, and method \"load\" ends there; use method "
+            "deck.toml:40:12: path.branches: \"jump\" begins where λ turns, and method \"load\" ends there; use method "
             "\"spherical\"");
 }
 

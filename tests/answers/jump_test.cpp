@@ -17,54 +17,28 @@
 #include "model/event_names.hpp"
 #include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::jump_test {
+
+using namespace test::tables;
 namespace {
 
 using test::TracedDeck;
 
 // Two bars of half-span 10 and rise 1, Green strain, EA = 1e4; the path ends at a depth.
 std::string truss(const std::string& depth) {
-  return test::low_truss + R"toml([path]
-step = 0.3
-jumps = true
-branches = "primary"
-stop.w = [)toml" +
-         depth + ", 0.5]\n";
+  return test::low_truss + path(R"(step = 0.3; jumps = true; branches = "primary"; stop.w = [)" + depth + ", 0.5]");
 }
 
 // Lee's frame: a column of 120 and a beam of 120, EI = 1440, loaded at a fifth of the beam.
-const std::string lee = R"toml(
-title = "Lee's frame"
-material.m = { E = 720.0, nu = 0.3 }
-section.s = { shape = "general", A = 6.0, I = 2.0 }
-point = { foot = [0.0, 0.0], corner = [0.0, 120.0], loaded = [24.0, 120.0], end = [120.0, 120.0] }
-support = { foot = ["x", "z"], end = ["x", "z"] }
-load = [{ at = "loaded", force = [0.0, -1.0] }]
-path = { step = 0.1, jumps = true, stop = { w = [-95.0, 10.0] } }
-monitor = [{ name = "u", at = "loaded", component = "x" }, { name = "w", at = "loaded", component = "z" }]
-[member.column]
-from = "foot"
-to = "corner"
-theory = "elastica"
-elements = 20
-material = "m"
-section = "s"
-[member.left]
-from = "corner"
-to = "loaded"
-theory = "elastica"
-elements = 4
-material = "m"
-section = "s"
-[member.right]
-from = "loaded"
-to = "end"
-theory = "elastica"
-elements = 16
-material = "m"
-section = "s"
-)toml";
+const std::string lee =
+    title("Lee's frame") + material("m", 720.0, "nu = 0.3") + general_section("s", 6.0, 2.0) +
+    points({{"foot", 0.0, 0.0}, {"corner", 0.0, 120.0}, {"loaded", 24.0, 120.0}, {"end", 120.0, 120.0}}) +
+    supports({{"foot", "x z"}, {"end", "x z"}}) + force("loaded", 0.0, -1.0) +
+    path("step = 0.1; jumps = true; stop = { w = [-95.0, 10.0] }") + monitor("u", "loaded", "x") +
+    monitor("w", "loaded", "z") + member("column", "foot", "corner", "elastica", 20) +
+    member("left", "corner", "loaded", "elastica", 4) + member("right", "loaded", "end", "elastica", 16);
 
 // A beam between walls as in the other tests of columns in a channel.
 const std::string channel =
@@ -245,16 +219,8 @@ namespace {
 
 // A steep truss of rise 5 and half-span 1, which sways at z = √23 above its feet; that branch is unstable.
 std::string steep_truss(const std::string& branches) {
-  std::string deck = truss("-4.5");
-  const auto put = [&](const std::string& from, const std::string& to) {
-    deck.replace(deck.find(from), from.size(), to);
-  };
-  put("left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0]",
-      "left = [-1.0, 0.0], top = [0.0, 5.0], right = [1.0, 0.0]");
-  put("E = 1e4", "E = 1.0");
-  put("step = 0.3", "step = 0.005");
-  put("branches = \"primary\"", "branches = \"" + branches + "\"");
-  return deck;
+  return test::truss_of(1.0, 5.0, 1.0) +
+         path("step = 0.005; jumps = true; branches = \"" + branches + "\"; stop.w = [-4.5, 0.5]");
 }
 
 }  // namespace
@@ -279,13 +245,9 @@ TEST(Jump, OfABranchPointWhoseBranchIsUnstable) {
 // and one at x = −3.6490728, at heights of −6.61037929601187 and −8.22981456547270 below the top; 0.30883094333755 and
 // 0.48479403612256 are released. Minima of the bars' energy along the line, by Newton's method with 40 digits.
 TEST(Jump, OfBothSensesOfAModeIsToldWhereTheyDiffer) {
-  const std::string deck = steep_truss("most-stable") + R"toml(
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = { type = "line", z = -2.5, slope = 0.2 }
-)toml";
+  const std::string deck =
+      steep_truss("most-stable") +
+      wall("floor", R"(side = "below"; contact_surface = "axis"; profile = { type = "line", z = -2.5, slope = 0.2 })");
   const Session run = test::traced(deck);
   const RecordEvent& sway = test::event_of(run.record(), EventKind::branch_point);
   ASSERT_TRUE(sway.jump);
@@ -341,15 +303,9 @@ TEST(Jump, IsNoneWhereTheBranchBehindIsStable) {
 // The load of the truss is brought on in two stages, with λ = 0 at the start of each.
 TEST(Jump, OfAStageIsThatOfTheWholeLoad) {
   const TracedDeck whole(truss("-2.5"));
-  const TracedDeck staged(truss("-2.5") + R"toml(
-[[stage]]
-name = "first"
-drives = ["load.0"]
-stop = { lambda = [-1.0, 0.7] }
-[[stage]]
-name = "second"
-drives = ["load.0"]
-)toml");
+  const TracedDeck staged(
+      truss("-2.5") + table("[[stage]]", R"(name = "first"; drives = ["load.0"]; stop = { lambda = [-1.0, 0.7] })") +
+      table("[[stage]]", R"(name = "second"; drives = ["load.0"])"));
   const RecordEvent &snap = event_of(staged, EventKind::limit_point),
                     &expected = event_of(whole, EventKind::limit_point);
   EXPECT_NEAR(snap.lambda, expected.lambda - 0.7, 1e-9);
@@ -365,28 +321,13 @@ drives = ["load.0"]
 // by 2 − 2 E(k)/K(k) of its length, and its middle has moved by k/K(k). The imperfection adds to one what it takes off
 // the other, to first order.
 TEST(Jump, IsFoundWhereAMovingWallLeavesAnUnstableStrip) {
-  const TracedDeck traced(R"toml(
-title = "A buckled strip, pushed off its middle"
-material.steel = { E = 2.0e5 }
-section.strip = { shape = "rectangle", width = 10.0, height = 0.3 }
-point = { left = [0.0, 0.0], right = [100.0, 0.0] }
-support = { left = ["x", "z", "rotation"], right = ["z", "rotation"] }
-prescribed = [{ at = "right", x = -0.5, constant = true }]
-path = { step = 0.1, jumps = true, stop = { lambda = [-0.1, 16.0] } }
-monitor = [{ name = "mid", at = "strip:0.5", component = "z" }]
-[member.strip]
-from = "left"
-to = "right"
-theory = "elastica"
-material = "steel"
-section = "strip"
-elements = 40
-imperfection = { shape = "sine", amplitude = 0.02, waves = 1 }
-[[wall]]
-name = "finger"
-outline = { type = "circle", centre = [40.0, 10.0], radius = 2.0 }
-motion = { z = -1.0 }
-)toml");
+  const TracedDeck traced(
+      title("A buckled strip, pushed off its middle") + material("steel", 2.0e5) + rectangle("strip", 10.0, 0.3) +
+      points({{"left", 0.0, 0.0}, {"right", 100.0, 0.0}}) +
+      supports({{"left", "x z rotation"}, {"right", "z rotation"}}) + prescribed("right", "x = -0.5; constant = true") +
+      path("step = 0.1; jumps = true; stop = { lambda = [-0.1, 16.0] }") + monitor("mid", "strip:0.5", "z") +
+      member("strip", "left", "right", "elastica", 40, imperfection({{1, 0.02}}), "steel", "strip") +
+      wall("finger", R"(outline = { type = "circle", centre = [40.0, 10.0], radius = 2.0 }; motion = { z = -1.0 })"));
   // Shortened by N/EA besides, N = (4 K/L)² EI.
   double low = 0.0, high = 0.5;
   while (high - low > 1e-15) {

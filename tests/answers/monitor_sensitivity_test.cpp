@@ -14,8 +14,11 @@
 #include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
 #include "tests/model/deck/sample_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::monitor_sensitivity_test {
+
+using namespace test::tables;
 namespace {
 
 using test::TracedDeck;
@@ -199,21 +202,12 @@ void expect_agreement(const std::string& deck, const std::vector<Number>& number
 
 // A column in a channel, shortened by its end; `path` besides.
 std::string channel(const std::string& path, const std::string& more) {
-  return R"toml(
-title = "A column in a channel"
-material.m = { E = 21000.0, nu = 0.29, allowable = 30.0 }
-section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-support = { A = ["x", "z"], B = ["z"] }
-monitor = [
-  { name = "mid", at = "column:0.5", component = "z" },
-  { name = "P", at = "B", component = "reaction-x" },
-  { name = "turn", at = "A", component = "rotation" },
-  { name = "wall", wall = "upper", component = "force-z" },
-  { name = "M", at = "column:0.25", component = "moment" },
-  { name = "use", member = "column", component = "utilisation" } ]
-)toml" + test::column_in_channel(20) +
-         more + "\n[path]\n" + path + "\n";
+  return title("A column in a channel") + material("m", 21000.0, "nu = 0.29; allowable = 30.0") +
+         rectangle("s", 0.1, 0.1) + points({{"A", 0.0, 0.0}, {"B", 2.0, 0.0}}) + supports({{"A", "x z"}, {"B", "z"}}) +
+         monitor("mid", "column:0.5", "z") + monitor("P", "B", "reaction-x") + monitor("turn", "A", "rotation") +
+         wall_monitor("wall", "upper", "force-z") + monitor("M", "column:0.25", "moment") +
+         table("[[monitor]]", R"(name = "use"; member = "column"; component = "utilisation")") +
+         test::column_in_channel(20) + more + "\n[path]\n" + path + "\n";
 }
 
 const std::string shortened = "[[prescribed]]\nat = \"B\"\nx = -1.0\n";
@@ -260,22 +254,14 @@ contact_surface = "axis"
 // derivatives of the equations change fast, up to a kink. At the branch point they are lost in round-off, which is
 // said.
 TEST(MonitorSensitivity, BesideTheOpeningOfACompliantWallIsThatOfOtherRuns) {
-  const std::string deck = R"toml(
-title = "An arch pressed by a compliant plate"
-material.steel = { E = 210000.0 }
-section.s = { shape = "rectangle", width = 10.0, height = 1.0 }
-point = { a = [-100.0, 0.0], b = [100.0, 0.0] }
-support = { a = ["x", "z"], b = ["x", "z"] }
-contact = { method = "compliant", law = { stiffness = 2.0 } }
-path = { step = 0.5, stop = { lambda = [-1.0, 60.0] }, watch = ["push"] }
-monitor = [{ name = "push", wall = "plate", component = "force-z", sign = -1 }, { name = "crown", at = "a:0.5", component = "z" }]
-member.a = { from = "a", to = "b", via = [0.0, 20.0], theory = "elastica", material = "steel", section = "s", elements = 24 }
-[[wall]]
-name = "plate"
-side = "above"
-profile = { type = "flat", z = 22.0 }
-motion = { z = -1.0 }
-)toml";
+  const std::string deck = title("An arch pressed by a compliant plate") + material("steel", 210000.0) +
+                           rectangle("s", 10.0, 1.0) + points({{"a", -100.0, 0.0}, {"b", 100.0, 0.0}}) +
+                           supports({{"a", "x z"}, {"b", "x z"}}) +
+                           contact(R"(method = "compliant"; law = { stiffness = 2.0 })") +
+                           path(R"(step = 0.5; stop = { lambda = [-1.0, 60.0] }; watch = ["push"])") +
+                           wall_monitor("push", "plate", "force-z", flipped) + monitor("crown", "a:0.5", "z") +
+                           member("a", "a", "b", "elastica", 24, "via = [0.0, 20.0]", "steel") +
+                           flat_wall("plate", "above", 22.0, "motion = { z = -1.0 }");
   expect_agreement(deck, {{"contact.law.stiffness", 1e-3}, {"section.s.height", 1e-4}}, EventKind::branch_point);
 }
 

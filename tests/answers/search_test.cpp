@@ -191,20 +191,10 @@ TEST(Search, LeavesWhatIsBeyondTheStopsUntraced) {
 // Two bars of half-span 1 and rise 5 sway with P L³ = 2 z and x² + z² = 23, the place of the top from the feet. That
 // branch leaves the one through the state that is found, upside down, at z = −√23.
 TEST(Search, TracesWhatBifurcatesFromABranchThatIsFound) {
-  std::string deck = test::low_truss + R"toml([path]
-step = 0.01
-search = true
-search_at = [0.03]
-search_guesses = 1
-stop = { lambda = [-0.5, 0.06] }
-)toml";
-  const auto put = [&](const std::string& from, const std::string& to) {
-    deck.replace(deck.find(from), from.size(), to);
-  };
-  put("left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0]",
-      "left = [-1.0, 0.0], top = [0.0, 5.0], right = [1.0, 0.0]");
-  put("E = 1e4", "E = 1.0");
-  put("component = \"z\" }", "component = \"z\" }, { name = \"u\", at = \"top\", component = \"x\" }");
+  const std::string deck =
+      test::truss_of(1.0, 5.0, 1.0) + test::monitor("u", "top", "x") +
+      test::path(
+          "step = 0.01; search = true; search_at = [0.03]; search_guesses = 1; stop = { lambda = [-0.5, 0.06] }");
   const TracedDeck traced(deck);
   const Record& record = traced.record();
   const auto child = std::find_if(record.branches.begin(), record.branches.end(),

@@ -12,26 +12,20 @@
 #include "model/event_names.hpp"
 #include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::sensitivity_test {
+
+using namespace test::tables;
 namespace {
 
 using test::TracedDeck;
 
 // A column in a channel, whose imperfection has a third harmonic; what is in `path` besides.
 std::string channel(const std::string& path, const std::string& more = "") {
-  return R"toml(
-title = "A column in a channel"
-material.m = { E = 21000.0, nu = 0.29, expansion = 1e-3 }
-section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-support = { A = ["x", "z"], B = ["z"] }
-[[monitor]]
-name = "mid"
-at = "column:0.5"
-component = "z"
-)toml" + test::column_in_channel(20) +
-         more + "\n[path]\n" + path + "\n";
+  return title("A column in a channel") + material("m", 21000.0, "nu = 0.29; expansion = 1e-3") +
+         rectangle("s", 0.1, 0.1) + points({{"A", 0.0, 0.0}, {"B", 2.0, 0.0}}) + supports({{"A", "x z"}, {"B", "z"}}) +
+         monitor("mid", "column:0.5", "z") + test::column_in_channel(20) + more + "\n[path]\n" + path + "\n";
 }
 
 std::string names_of(const std::vector<std::string>& keys) {
@@ -200,16 +194,11 @@ TEST(Sensitivity, ByAreaAndBySecondMomentMakeUpTheLoad) {
 // A straight column buckles at P with P (1 − P/EA) = π² EI/L², a pitchfork of a symmetric branch. It moves with L and
 // EA; an imperfection breaks it.
 TEST(Sensitivity, OfAPitchforkThatPersists) {
-  const std::string deck = R"toml(
-title = "A straight column"
-material.m = { E = 21000.0 }
-section.s = { shape = "general", A = 0.01, I = 8.333333333333333e-6 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-support = { A = ["x", "z"], B = ["z"] }
-load = [{ at = "B", force = [-1.0, 0.0] }]
-path = { step = 0.05, stop = { event = "branch-point" } }
-member.c = { from = "A", to = "B", theory = "elastica", elements = 16, material = "m", section = "s", imperfection = [{ shape = "sine", amplitude = 0.0, waves = 1 }] }
-)toml";
+  const std::string deck = title("A straight column") + material("m", 21000.0) +
+                           general_section("s", 0.01, 8.333333333333333e-6) +
+                           points({{"A", 0.0, 0.0}, {"B", 2.0, 0.0}}) + supports({{"A", "x z"}, {"B", "z"}}) +
+                           force("B", -1.0, 0.0) + path(R"(step = 0.05; stop = { event = "branch-point" })") +
+                           member("c", "A", "B", "elastica", 16, imperfection({{1, 0.0}}));
   const TracedDeck traced(
       deck, {"path.sensitivity=['point.B.0','section.s.I','section.s.A','member.c.imperfection.0.amplitude']"});
   const RecordEvent& buckles = event_of(traced, EventKind::branch_point);
@@ -254,22 +243,18 @@ outline = { type = "half-plane", point = [0.5, -0.1078886], normal = [-0.0621593
 }
 
 TEST(Sensitivity, HasNoSlopeWhereContactsWouldPart) {
-  const std::string deck = R"toml(
-title = "A beam over two hills"
-material.m = { E = 21000.0 }
-section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { A = [0.0, 0.0], M = [1.0, 0.0], B = [2.0, 0.0] }
-support = { A = ["x", "z"], B = ["x", "z"] }
-load = [{ at = "M", force = [0.0, -0.1] }]
-path = { step = 0.05, stop = { event = "contact-closes" } }
-member.a = { from = "A", to = "M", theory = "euler-bernoulli", elements = 8, material = "m", section = "s" }
-member.b = { from = "M", to = "B", theory = "euler-bernoulli", elements = 8, material = "m", section = "s" }
-contact = { points = "nodes" }
-wall = [
-  { name = "left", side = "below", contact_surface = "axis", profile = { type = "parabola", apex = [0.5, -0.03], curvature = -5.0 } },
-  { name = "right", side = "below", contact_surface = "axis", profile = { type = "parabola", apex = [1.5, -0.03], curvature = -5.0 } },
-]
-)toml";
+  const std::string deck =
+      title("A beam over two hills") + material("m", 21000.0) + rectangle("s", 0.1, 0.1) +
+      points({{"A", 0.0, 0.0}, {"M", 1.0, 0.0}, {"B", 2.0, 0.0}}) + supports({{"A", "x z"}, {"B", "x z"}}) +
+      force("M", 0.0, -0.1) + path(R"(step = 0.05; stop = { event = "contact-closes" })") +
+      member("a", "A", "M", "euler-bernoulli", 8) + member("b", "M", "B", "euler-bernoulli", 8) +
+      contact(R"(points = "nodes")") +
+      wall(
+          "left",
+          R"(side = "below"; contact_surface = "axis"; profile = { type = "parabola", apex = [0.5, -0.03], curvature = -5.0 })") +
+      wall(
+          "right",
+          R"(side = "below"; contact_surface = "axis"; profile = { type = "parabola", apex = [1.5, -0.03], curvature = -5.0 })");
   const TracedDeck traced(deck, {"path.sensitivity=['wall.left.profile.apex.1','material.m.E']"});
   const auto& found = event_of(traced, EventKind::contact_closes).sensitivity;
   ASSERT_EQ(found.size(), 2U);
@@ -296,14 +281,8 @@ name = "side"
 drives = ["load.0"]
 step = 0.05
 stop = )toml" +
-           stop +
-           R"toml(
-[[stage]]
-name = "crown"
-drives = ["load.1"]
-step = 0.01
-stop = { event = "limit-point" }
-)toml";
+           stop + "\n" +
+           table("[[stage]]", R"(name = "crown"; drives = ["load.1"]; step = 0.01; stop = { event = "limit-point" })");
   };
   expect_agreement(arch("{ lambda = [-1.0, 0.1] }"),
                    {{"member.arch.sine.rise", 1e-4}, {"stage.side.stop.lambda.1", 1e-3}}, 1e-7);

@@ -7,28 +7,22 @@
 
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/expect_whole.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::curved_parts_test {
+
+using namespace test::tables;
 namespace {
 
-constexpr const char* column_on_a_wavy_floor = R"toml(
-title = "a column between a circle and a spline"
-material.steel = { E = 2.1e4 }
-section.s = { shape = "rectangle", width = 0.0668, height = 0.02296 }
-point = { left = [0.0, 0.0], right = [1.636, 0.0] }
-support = { left = ["x", "z"], right = ["z", "rotation"] }
-load = [{ at = "right", force = [-0.01066, 0.0] }]
-path = { step = 0.05, jumps = false, stop = { lambda = [-1.0, 9.0] } }
-member.column = { from = "left", to = "right", theory = "elastica", material = "steel", section = "s", elements = 54, imperfection = [{ shape = "sine", amplitude = -0.001076, waves = 1 }, { shape = "sine", amplitude = 0.000363, waves = 3 }] }
-[[wall]]
-name = "upper"
-side = "above"
-profile = { type = "circle", centre = [0.755, 15.2745], radius = 15.2227 }
-[[wall]]
-name = "lower"
-side = "below"
-profile = { type = "spline", x = [-0.409, -0.0584, 0.2922, 0.6428, 0.9934, 1.344, 1.6946, 2.0452], z = [-0.05621, -0.06019, -0.05208, -0.06044, -0.05879, -0.05545, -0.05648, -0.05983] }
-)toml";
+const std::string column_on_a_wavy_floor =
+    title("a column between a circle and a spline") + material("steel", 2.1e4) + rectangle("s", 0.0668, 0.02296) +
+    points({{"left", 0.0, 0.0}, {"right", 1.636, 0.0}}) + supports({{"left", "x z"}, {"right", "z rotation"}}) +
+    force("right", -0.01066, 0.0) + path("step = 0.05; jumps = false; stop = { lambda = [-1.0, 9.0] }") +
+    member("column", "left", "right", "elastica", 54, imperfection({{1, -0.001076}, {3, 0.000363}}), "steel") +
+    wall("upper", R"(side = "above"; profile = { type = "circle", centre = [0.755, 15.2745], radius = 15.2227 })") +
+    wall(
+        "lower",
+        R"(side = "below"; profile = { type = "spline", x = [-0.409, -0.0584, 0.2922, 0.6428, 0.9934, 1.344, 1.6946, 2.0452], z = [-0.05621, -0.06019, -0.05208, -0.06044, -0.05879, -0.05545, -0.05648, -0.05983] })");
 
 void expect_joined_touch(const std::string& elements) {
   const test::TracedDeck traced(column_on_a_wavy_floor, {"member.column.elements=" + elements});
@@ -49,21 +43,14 @@ TEST(CurvedParts, JoinATouchWhereTheirPressureVanishesOnAFineMeshNightly) { expe
 namespace {
 
 // End moments bend a beam onto a hill that is next to flat: its pressure there is some 10⁻⁵ of EI/L³.
-constexpr const char* beam_on_a_flat_hill = R"toml(
-title = "a simple beam on a hill under end moments"
-material.steel = { E = 2.1e4 }
-section.s = { shape = "rectangle", width = 0.655, height = 0.33355 }
-point = { left = [0.0, 0.0], right = [31.1635, 0.0] }
-support = { left = ["x", "z"], right = ["z"] }
-load = [{ at = "left", moment = -0.14926 }, { at = "right", moment = 0.14926 }]
-monitor = [{ name = "mid", at = "beam:0.5", component = "z" }]
-path = { step = 0.1, stop = { lambda = [-1.0, 5.72] } }
-member.beam = { from = "left", to = "right", theory = "euler-bernoulli", material = "steel", section = "s", elements = 24 }
-[[wall]]
-name = "floor"
-side = "below"
-profile = { type = "parabola", apex = [14.0515, -0.57259], curvature = -0.00027045 }
-)toml";
+const std::string beam_on_a_flat_hill =
+    title("a simple beam on a hill under end moments") + material("steel", 2.1e4) + rectangle("s", 0.655, 0.33355) +
+    points({{"left", 0.0, 0.0}, {"right", 31.1635, 0.0}}) + supports({{"left", "x z"}, {"right", "z"}}) +
+    table("[[load]]", R"(at = "left"; moment = -0.14926)") + table("[[load]]", R"(at = "right"; moment = 0.14926)") +
+    monitor("mid", "beam:0.5", "z") + path("step = 0.1; stop = { lambda = [-1.0, 5.72] }") +
+    member("beam", "left", "right", "euler-bernoulli", 24, "", "steel") +
+    wall("floor",
+         R"(side = "below"; profile = { type = "parabola", apex = [14.0515, -0.57259], curvature = -0.00027045 })");
 
 }  // namespace
 

@@ -16,8 +16,11 @@
 #include "model/event_names.hpp"
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/expect_whole.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::deck_answers_test {
+
+using namespace test::tables;
 namespace {
 
 struct Scene {
@@ -27,7 +30,7 @@ struct Scene {
 
 struct Answer {
   std::string name{};
-  const char* deck = nullptr;
+  std::string deck{};
   std::vector<Scene> scenes{};
   ExitStatus status = ExitStatus::success;
 };
@@ -94,46 +97,28 @@ path = { step = 0.1, stop = { lambda = [-1.0, 4.0] } }
 )toml";
 
 // From a run with four times the elements and steps of at most 0.03. `verify` holds on a curved wall, too.
-constexpr const char* hump = R"toml(
-title = "A portal whose beam is bent onto a hump"
-material.steel = { E = 2.1e4 }
-section.s = { shape = "rectangle", width = 0.3, height = 0.12 }
-point = { a = [0.0, 0.0], b = [0.0, 12.0], c = [14.0, 12.0], e = [14.0, 0.0] }
-support = { a = ["x", "z"], e = ["x", "z"] }
-load = [{ at = "beam:0.4375", force = [0.0, -0.14] }, { at = "b", force = [0.005, 0.0] }]
-monitor = [{ name = "sway", at = "b", component = "x" }]
-path = { step = 0.05, stop = { lambda = [-1.0, 2.0], sway = [-9.0, 9.0] } }
-[member]
-west = { from = "a", to = "b", theory = "euler-bernoulli", material = "steel", section = "s", elements = 10 }
-beam = { from = "b", to = "c", theory = "euler-bernoulli", material = "steel", section = "s", elements = 16 }
-east = { from = "c", to = "e", theory = "euler-bernoulli", material = "steel", section = "s", elements = 10 }
-[[wall]]
-name = "hump"
-side = "below"
-profile = { type = "parabola", apex = [6.6, 11.2], curvature = -0.16 }
-members = ["beam"]
-)toml";
+const std::string hump =
+    title("A portal whose beam is bent onto a hump") + material("steel", 2.1e4) + rectangle("s", 0.3, 0.12) +
+    points({{"a", 0.0, 0.0}, {"b", 0.0, 12.0}, {"c", 14.0, 12.0}, {"e", 14.0, 0.0}}) +
+    supports({{"a", "x z"}, {"e", "x z"}}) + force("beam:0.4375", 0.0, -0.14) + force("b", 0.005, 0.0) +
+    monitor("sway", "b", "x") + path("step = 0.05; stop = { lambda = [-1.0, 2.0], sway = [-9.0, 9.0] }") +
+    member("west", "a", "b", "euler-bernoulli", 10, "", "steel") +
+    member("beam", "b", "c", "euler-bernoulli", 16, "", "steel") +
+    member("east", "c", "e", "euler-bernoulli", 10, "", "steel") +
+    wall(
+        "hump",
+        R"(side = "below"; profile = { type = "parabola", apex = [6.6, 11.2], curvature = -0.16 }; members = ["beam"])");
 
 // From a run with four times the elements and steps of at most 0.03. The limit point is none besides a branch point.
-constexpr const char* wavy_column = R"toml(
-title = "A column of a wavy shape between a flat and a sloping wall"
-material.steel = { E = 2.1e4 }
-section.s = { shape = "rectangle", width = 0.8, height = 0.2 }
-point = { foot = [0.0, 0.0], head = [26.0, 0.0] }
-support = { foot = ["x", "z", "rotation"], head = ["z"] }
-load = [{ at = "head", force = [-0.35, 0.0] }]
-monitor = [{ name = "mid", at = "column:0.5", component = "z" }, { name = "shortening", at = "head", component = "x", sign = -1 }]
-path = { step = 0.02, stop = { lambda = [-1.0, 12.0], shortening = [-5.0, 18.0] } }
-member.column = { from = "foot", to = "head", theory = "elastica", material = "steel", section = "s", elements = 48, imperfection = [{ shape = "sine", amplitude = -0.16, waves = 2 }] }
-[[wall]]
-name = "above"
-side = "above"
-profile = { type = "flat", z = 1.15 }
-[[wall]]
-name = "below"
-side = "below"
-profile = { type = "line", z = -1.2, slope = -0.01 }
-)toml";
+const std::string wavy_column =
+    title("A column of a wavy shape between a flat and a sloping wall") + material("steel", 2.1e4) +
+    rectangle("s", 0.8, 0.2) + points({{"foot", 0.0, 0.0}, {"head", 26.0, 0.0}}) +
+    supports({{"foot", "x z rotation"}, {"head", "z"}}) + force("head", -0.35, 0.0) +
+    monitor("mid", "column:0.5", "z") + monitor("shortening", "head", "x", flipped) +
+    path("step = 0.02; stop = { lambda = [-1.0, 12.0], shortening = [-5.0, 18.0] }") +
+    member("column", "foot", "head", "elastica", 48, imperfection({{2, -0.16}}), "steel") +
+    flat_wall("above", "above", 1.15) +
+    wall("below", R"(side = "below"; profile = { type = "line", z = -1.2, slope = -0.01 })");
 
 // From a run with four times the elements and steps of at most 0.03. Each limit point is found once.
 constexpr const char* unequal_toggle = R"toml(
@@ -153,27 +138,13 @@ east = { from = "top", to = "b", theory = "elastica", material = "steel", sectio
 
 // P (1 − P/EA) = π² EI/L² at the branch point. Then shooting from the foot to the middle, where θ vanishes, and M where
 // the touch spreads. The elements' error is (π/60)⁴/720 of the load at the branch point.
-constexpr const char* slender_column = R"toml(
-title = "A slender column between far walls"
-material.steel = { E = 2.1e4 }
-section.s = { shape = "rectangle", width = 0.6, height = 0.1 }
-point = { foot = [0.0, 0.0], head = [20.0, 0.0] }
-member.column = { from = "foot", to = "head", theory = "euler-bernoulli", material = "steel", section = "s", elements = 60 }
-support = { foot = ["x", "z"], head = ["z"] }
-load = [{ at = "head", force = [-0.02, 0.0] }]
-monitor = [{ name = "mid", at = "column:0.5", component = "z" }]
-path = { step = 0.05, stop = { lambda = [-1.0, 8.0] } }
-[[wall]]
-name = "above"
-side = "above"
-contact_surface = "axis"
-profile = { type = "flat", z = 0.9 }
-[[wall]]
-name = "below"
-side = "below"
-contact_surface = "axis"
-profile = { type = "flat", z = -2.0 }
-)toml";
+const std::string slender_column =
+    title("A slender column between far walls") + material("steel", 2.1e4) + rectangle("s", 0.6, 0.1) +
+    points({{"foot", 0.0, 0.0}, {"head", 20.0, 0.0}}) +
+    member("column", "foot", "head", "euler-bernoulli", 60, "", "steel") + supports({{"foot", "x z"}, {"head", "z"}}) +
+    force("head", -0.02, 0.0) + monitor("mid", "column:0.5", "z") +
+    path("step = 0.05; stop = { lambda = [-1.0, 8.0] }") + flat_wall("above", "above", 0.9, on_axis) +
+    flat_wall("below", "below", -2.0, on_axis);
 
 // The nose touches the ramp, and leaves it, where z = −1.2 on both: the base has gone 5 ∓ √8, and the spring of 0.2/80
 // alone holds it. In between shooting from the base over the corner to the nose, pushed by the ramp at right angles;
@@ -197,25 +168,14 @@ spring = { from = "anchor", to = "base", theory = "euler-bernoulli", hinge = ["f
 )toml";
 
 // From a run with four times the elements and steps of at most 0.02. λ falls to the end, and no event is met twice.
-constexpr const char* rounded_walls = R"toml(
-title = "A nearly straight column between two rounded walls"
-material.steel = { E = 2.1e4 }
-section.s = { shape = "rectangle", width = 0.6, height = 0.36 }
-point = { foot = [0.0, 0.0], head = [15.0, 0.0] }
-support = { foot = ["x", "z"], head = ["z"] }
-load = [{ at = "head", force = [-2.2, 0.0] }]
-monitor = [{ name = "mid", at = "column:0.5", component = "z" }, { name = "shortening", at = "head", component = "x", sign = -1 }]
-path = { step = 0.05, stop = { lambda = [-1.0, 11.0], shortening = [-3.0, 4.6] } }
-member.column = { from = "foot", to = "head", theory = "euler-bernoulli", material = "steel", section = "s", elements = 80, imperfection = [{ shape = "sine", amplitude = 0.0015, waves = 1 }, { shape = "sine", amplitude = 0.004, waves = 2 }] }
-[[wall]]
-name = "above"
-side = "above"
-profile = { type = "circle", centre = [8.9, 12.2], radius = 11.7 }
-[[wall]]
-name = "below"
-side = "below"
-profile = { type = "circle", centre = [5.9, -37.7], radius = 37.2 }
-)toml";
+const std::string rounded_walls =
+    title("A nearly straight column between two rounded walls") + material("steel", 2.1e4) + rectangle("s", 0.6, 0.36) +
+    points({{"foot", 0.0, 0.0}, {"head", 15.0, 0.0}}) + supports({{"foot", "x z"}, {"head", "z"}}) +
+    force("head", -2.2, 0.0) + monitor("mid", "column:0.5", "z") + monitor("shortening", "head", "x", flipped) +
+    path("step = 0.05; stop = { lambda = [-1.0, 11.0], shortening = [-3.0, 4.6] }") +
+    member("column", "foot", "head", "euler-bernoulli", 80, imperfection({{1, 0.0015}, {2, 0.004}}), "steel") +
+    wall("above", R"(side = "above"; profile = { type = "circle", centre = [8.9, 12.2], radius = 11.7 })") +
+    wall("below", R"(side = "below"; profile = { type = "circle", centre = [5.9, -37.7], radius = 37.2 })");
 
 std::vector<Answer> answers() {
   using enum EventKind;
@@ -394,20 +354,13 @@ TEST(SwayingToggle, ComesBackUprightAndLandsWithBothHalves) {
   constexpr double touch = 0.723459463513;
   for (const std::string step : {"0.05", "0.0125", "0.005"}) {
     SCOPED_TRACE(step);
-    const test::TracedDeck traced(R"toml(
-title = "A clamped toggle above a floor"
-material.m = { E = 2.1e4 }
-section.s = { shape = "rectangle", width = 1.0, height = 0.3 }
-point = { a = [0.0, 0.0], top = [10.0, 0.85], b = [20.0, 0.0] }
-support = { a = ["x", "z", "rotation"], b = ["x", "z", "rotation"] }
-member.west = { from = "a", to = "top", theory = "elastica", material = "m", section = "s", elements = 20 }
-member.east = { from = "top", to = "b", theory = "elastica", material = "m", section = "s", elements = 20 }
-load = [{ at = "top", force = [0.0, -1.0] }]
-wall = [{ name = "floor", side = "below", profile = { type = "flat", z = -0.63 } }]
-monitor = [{ name = "down", at = "top", component = "z", sign = -1 }]
-path = { step = 0.05, jumps = false, stop = { lambda = [-3.0, 3.0] } }
-)toml",
-                                  {"path.step=" + step});
+    const test::TracedDeck traced(
+        title("A clamped toggle above a floor") + material("m", 2.1e4) + rectangle("s", 1.0, 0.3) +
+            points({{"a", 0.0, 0.0}, {"top", 10.0, 0.85}, {"b", 20.0, 0.0}}) +
+            supports({{"a", "x z rotation"}, {"b", "x z rotation"}}) + member("west", "a", "top", "elastica", 20) +
+            member("east", "top", "b", "elastica", 20) + force("top", 0.0, -1.0) + flat_wall("floor", "below", -0.63) +
+            monitor("down", "top", "z", flipped) + path("step = 0.05; jumps = false; stop = { lambda = [-3.0, 3.0] }"),
+        {"path.step=" + step});
     const Record& record = traced.record();
     ASSERT_EQ(record.branches.size(), 3U);
     EXPECT_EQ(record.branches.back().end.value().reason, EndReason::stop);

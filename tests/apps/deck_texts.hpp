@@ -4,54 +4,33 @@
 
 #include <string>
 
+#include "tests/support/deck_tables.hpp"
+
 /// Parts of decks that several suites trace.
 namespace arcwall::test {
 
-/// Two bars from points left to top and top to right, of material m and section s, with Green's strain.
-inline const std::string two_bars = R"toml(
-[member.a]
-from = "left"
-to = "top"
-theory = "truss"
-strain = "green"
-elements = 1
-material = "m"
-section = "s"
-[member.b]
-from = "top"
-to = "right"
-theory = "truss"
-strain = "green"
-elements = 1
-material = "m"
-section = "s"
-)toml";
+using namespace tables;
 
-/// Two bars of half-span 10 and rise 1, Green's strain, EA = 1e4, with a load and a monitor w at the top; tables may
-/// follow.
-inline const std::string low_truss = R"toml(
-title = "Two bars"
-material.m = { E = 1e4 }
-section.s = { shape = "general", A = 1.0, I = 1.0 }
-point = { left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0] }
-support = { left = ["x", "z"], right = ["x", "z"] }
-load = [{ at = "top", force = [0.0, -1.0] }]
-monitor = [{ name = "w", at = "top", component = "z" }]
-)toml" + two_bars;
+/// Two bars from points left to top and top to right, of material m and section s, with Green's strain.
+inline const std::string two_bars = member("a", "left", "top", "truss", 1, R"(strain = "green")") +
+                                    member("b", "top", "right", "truss", 1, R"(strain = "green")");
+
+/// Two bars with Green's strain, and a load and a monitor w at the top; tables may follow.
+inline std::string truss_of(double half_span, double rise, double EA) {
+  return title("Two bars") + material("m", EA) + general_section("s", 1.0, 1.0) +
+         points({{"left", -half_span, 0.0}, {"top", 0.0, rise}, {"right", half_span, 0.0}}) +
+         supports({{"left", "x z"}, {"right", "x z"}}) + force("top", 0.0, -1.0) + monitor("w", "top", "z") + two_bars;
+}
+inline const std::string low_truss = truss_of(10.0, 1.0, 1e4);
 
 /// The same two bars with a spring at the top, whose stiffness makes the limit points meet at a cusp; traced past both,
 /// and tables may follow.
-inline const std::string truss_on_spring = R"toml(
-title = "Two bars and a spring"
-material.m = { E = 1e4 }
-section.s = { shape = "general", A = 1.0, I = 1.0 }
-point = { left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0] }
-support = { left = ["x", "z"], right = ["x", "z"] }
-load = [{ at = "top", force = [0.0, -1.0] }]
-spring = [{ at = "top", stiffness = { z = 1.0 } }]
-path = { step = 0.3, branches = "primary", stop = { w = [-2.5, 0.5] } }
-monitor = [{ name = "w", at = "top", component = "z" }]
-)toml" + two_bars;
+inline const std::string truss_on_spring =
+    title("Two bars and a spring") + material("m", 1e4) + general_section("s", 1.0, 1.0) +
+    points({{"left", -10.0, 0.0}, {"top", 0.0, 1.0}, {"right", 10.0, 0.0}}) +
+    supports({{"left", "x z"}, {"right", "x z"}}) + force("top", 0.0, -1.0) +
+    table("[[spring]]", R"(at = "top"; stiffness = { z = 1.0 })") +
+    path(R"(step = 0.3; branches = "primary"; stop = { w = [-2.5, 0.5] })") + monitor("w", "top", "z") + two_bars;
 
 /// A straight column of length 2 between pins, EI = 0.175 and EA = 210, traced up to its pitchfork or another stop;
 /// tables may follow.
@@ -72,25 +51,7 @@ member.c = {{ from = "A", to = "B", theory = "elastica", elements = {}, material
 /// A column from A to B between walls at 0.2 to both sides, of material m and section s; its imperfection has a third
 /// harmonic.
 inline std::string column_in_channel(int elements) {
-  return fmt::format(R"toml(
-[[wall]]
-name = "upper"
-side = "above"
-profile = {{ type = "flat", z = 0.2 }}
-[[wall]]
-name = "lower"
-side = "below"
-profile = {{ type = "flat", z = -0.2 }}
-[member.column]
-from = "A"
-to = "B"
-theory = "elastica"
-elements = {}
-imperfection = [{{ shape = "sine", amplitude = 0.00176, waves = 1 }}, {{ shape = "sine", amplitude = 0.0001, waves = 3 }}]
-material = "m"
-section = "s"
-)toml",
-                     elements);
+  return channel(0.2) + member("column", "A", "B", "elastica", elements, imperfection({{1, 0.00176}, {3, 0.0001}}));
 }
 
 /// A deck of that column, pressed at B, with its monitor `mid`; `path`: the keys of [path]. Tables may follow.

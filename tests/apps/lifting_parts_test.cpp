@@ -14,8 +14,11 @@
 #include "model/event_names.hpp"
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/expect_whole.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::lifting_parts_test {
+
+using namespace test::tables;
 namespace {
 
 // First and last wave: half waves and amplitude over the length of 86.
@@ -111,22 +114,15 @@ TEST(LiftingParts, LiftOffOnACurvedFloorWithoutATurnOfTheLoadSlow) {
   double load = 0.0;
   for (const int elements : {16, 40, 60}) {
     SCOPED_TRACE(elements);
-    const test::TracedDeck traced(fmt::format(R"toml(
-title = "a beam that is bent onto a curved floor"
-material.steel = {{ E = 2.1e4 }}
-section.s = {{ shape = "rectangle", width = 0.2, height = 0.025 }}
-point = {{ left = [0.0, 0.0], right = [4.0, 0.0] }}
-support = {{ left = ["x", "z"], right = ["z"] }}
-load = [{{ at = "left", moment = -1e-4 }}, {{ at = "right", moment = 1e-4 }}]
-monitor = [{{ name = "mid", at = "beam:0.5", component = "z" }}]
-path = {{ step = 0.1, stop = {{ lambda = [-1.0, 10.0] }} }}
-member.beam = {{ from = "left", to = "right", theory = "euler-bernoulli", material = "steel", section = "s", elements = {} }}
-[[wall]]
-name = "floor"
-side = "below"
-profile = {{ type = "spline", x = [-1.0, 0.5, 2.0, 3.5, 5.0], z = [-0.078, -0.0785, -0.0916, -0.0953, -0.081] }}
-)toml",
-                                              elements));
+    const test::TracedDeck traced(
+        title("a beam that is bent onto a curved floor") + material("steel", 2.1e4) + rectangle("s", 0.2, 0.025) +
+        points({{"left", 0.0, 0.0}, {"right", 4.0, 0.0}}) + supports({{"left", "x z"}, {"right", "z"}}) +
+        table("[[load]]", R"(at = "left"; moment = -1e-4)") + table("[[load]]", R"(at = "right"; moment = 1e-4)") +
+        monitor("mid", "beam:0.5", "z") + path("step = 0.1; stop = { lambda = [-1.0, 10.0] }") +
+        member("beam", "left", "right", "euler-bernoulli", elements, "", "steel") +
+        wall(
+            "floor",
+            R"(side = "below"; profile = { type = "spline", x = [-1.0, 0.5, 2.0, 3.5, 5.0], z = [-0.078, -0.0785, -0.0916, -0.0953, -0.081] })"));
     const Record& record = traced.record();
     ASSERT_EQ(kinds_of(record), "start contact-closes contact-spreads contact-splits contact-shrinks end ");
     if (load != 0.0) {
@@ -146,21 +142,14 @@ TEST(LiftingParts, AreNoneWhereTheWallWouldPullAtOnce) {
   const std::vector<double> fractions{0.80080293810, 0.82046284957}, forces{0.38943305876, 0.34929923528};
   for (const int elements : {24, 48, 96}) {
     SCOPED_TRACE(elements);
-    const test::TracedDeck traced(fmt::format(R"toml(
-title = "a cantilever that a load draws over a parabola"
-material.steel = {{ E = 2.1e4 }}
-section.s = {{ shape = "rectangle", width = 0.44, height = 0.134 }}
-point = {{ clamp = [0.0, 0.0], tip = [4.05, 0.0] }}
-support = {{ clamp = ["x", "z", "rotation"] }}
-load = [{{ at = "tip", force = [0.0094, -0.1125] }}]
-path = {{ step = 0.1, jumps = false, stop = {{ lambda = [-1.0, 7.62] }} }}
-member.strip = {{ from = "clamp", to = "tip", theory = "euler-bernoulli", material = "steel", section = "s", elements = {} }}
-[[wall]]
-name = "floor"
-side = "below"
-profile = {{ type = "parabola", apex = [1.28, -0.5526], curvature = -0.545 }}
-)toml",
-                                              elements));
+    const test::TracedDeck traced(
+        title("a cantilever that a load draws over a parabola") + material("steel", 2.1e4) +
+        rectangle("s", 0.44, 0.134) + points({{"clamp", 0.0, 0.0}, {"tip", 4.05, 0.0}}) +
+        supports({{"clamp", "x z rotation"}}) + force("tip", 0.0094, -0.1125) +
+        path("step = 0.1; jumps = false; stop = { lambda = [-1.0, 7.62] }") +
+        member("strip", "clamp", "tip", "euler-bernoulli", elements, "", "steel") +
+        wall("floor",
+             R"(side = "below"; profile = { type = "parabola", apex = [1.28, -0.5526], curvature = -0.545 })"));
     EXPECT_EQ(kinds_of(traced.record()), "start contact-closes contact-splits end ");
     const auto& contacts = traced.record().points.back().forces;
     ASSERT_EQ(contacts.size(), 2U);
@@ -229,25 +218,15 @@ wall = [{{ name = "lower", side = "below", profile = {{ type = "flat", z = {} }}
 TEST(LiftingParts, AnArchComesBeforeWhatLeapsOverItSlow) {
   for (const int elements : {12, 16, 24, 48}) {
     SCOPED_TRACE(elements);
-    const test::TracedDeck traced(fmt::format(R"toml(
-title = "a column with a crooked axis between two walls"
-material.steel = {{ E = 2.1e4 }}
-section.s = {{ shape = "rectangle", width = 0.004521116089226707, height = 0.004052606612099937 }}
-point = {{ left = [0.0, 0.0], right = [1.141177015948108, 0.0] }}
-support = {{ left = ["x", "z", "rotation"], right = ["z"] }}
-load = [{{ at = "right", force = [-8.164370628849034e-06, 0.0] }}]
-path = {{ step = 0.05, jumps = false, stop = {{ lambda = [-1.0, 10.89] }} }}
-member.column = {{ from = "left", to = "right", theory = "elastica", material = "steel", section = "s", elements = {}, imperfection = [{{ shape = "sine", amplitude = 0.004464500376695884, waves = 2 }}, {{ shape = "sine", amplitude = 0.0011775847094003407, waves = 3 }}] }}
-[[wall]]
-name = "upper"
-side = "above"
-profile = {{ type = "flat", z = 0.04384893677757347 }}
-[[wall]]
-name = "lower"
-side = "below"
-profile = {{ type = "flat", z = -0.04384893677757347 }}
-)toml",
-                                              elements));
+    const test::TracedDeck traced(
+        title("a column with a crooked axis between two walls") + material("steel", 2.1e4) +
+        rectangle("s", 0.004521116089226707, 0.004052606612099937) +
+        points({{"left", 0.0, 0.0}, {"right", 1.141177015948108, 0.0}}) +
+        supports({{"left", "x z rotation"}, {"right", "z"}}) + force("right", -8.164370628849034e-06, 0.0) +
+        path("step = 0.05; jumps = false; stop = { lambda = [-1.0, 10.89] }") +
+        member("column", "left", "right", "elastica", elements,
+               imperfection({{2, 0.004464500376695884}, {3, 0.0011775847094003407}}), "steel") +
+        channel(0.04384893677757347));
     std::vector<double> spreads;
     for (const RecordEvent& event : traced.record().events)
       if (event.kind == EventKind::contact_spreads || event.kind == EventKind::contact_splits)
@@ -267,25 +246,17 @@ profile = {{ type = "flat", z = -0.04384893677757347 }}
 TEST(LiftingParts, BeginWithTheCountThatTheLoadTellsSlow) {
   for (const int elements : {28, 56}) {
     SCOPED_TRACE(elements);
-    const test::TracedDeck traced(fmt::format(R"toml(
-title = "a clamped column with a crooked axis between two walls"
-material.steel = {{ E = 2.1e4 }}
-section.s = {{ shape = "rectangle", width = 0.13417505390529683, height = 0.10500669074045688 }}
-point = {{ left = [0.0, 0.0], right = [24.278218174061656, 0.0] }}
-support = {{ left = ["x", "z", "rotation"], right = ["z", "rotation"] }}
-load = [{{ at = "right", force = [-0.018209032044165793, 0.0] }}]
-path = {{ step = 0.05, jumps = false, stop = {{ lambda = [-1.0, 9.18], shortening = [-4.9, 17.0] }} }}
-member.column = {{ from = "left", to = "right", theory = "euler-bernoulli", material = "steel", section = "s", elements = {}, imperfection = [{{ shape = "sine", amplitude = 0.004474647982516008, waves = 2 }}, {{ shape = "sine", amplitude = -0.003784287705548113, waves = 3 }}] }}
-wall = [
-  {{ name = "upper", side = "above", profile = {{ type = "flat", z = 1.14982324553484 }}, contact_surface = "axis" }},
-  {{ name = "lower", side = "below", profile = {{ type = "flat", z = -3.3964639599729836 }}, contact_surface = "axis" }},
-]
-monitor = [
-  {{ name = "mid", at = "column:0.5", component = "z" }},
-  {{ name = "shortening", at = "right", component = "x", sign = -1 }},
-]
-)toml",
-                                              elements));
+    const test::TracedDeck traced(
+        title("a clamped column with a crooked axis between two walls") + material("steel", 2.1e4) +
+        rectangle("s", 0.13417505390529683, 0.10500669074045688) +
+        points({{"left", 0.0, 0.0}, {"right", 24.278218174061656, 0.0}}) +
+        supports({{"left", "x z rotation"}, {"right", "z rotation"}}) + force("right", -0.018209032044165793, 0.0) +
+        path("step = 0.05; jumps = false; stop = { lambda = [-1.0, 9.18], shortening = [-4.9, 17.0] }") +
+        member("column", "left", "right", "euler-bernoulli", elements,
+               imperfection({{2, 0.004474647982516008}, {3, -0.003784287705548113}}), "steel") +
+        flat_wall("upper", "above", 1.14982324553484, on_axis) +
+        flat_wall("lower", "below", -3.3964639599729836, on_axis) + monitor("mid", "column:0.5", "z") +
+        monitor("shortening", "right", "x", flipped));
     const Record& record = traced.record();
     const RecordEvent& begins = record.events[record.events.size() - 2];
     EXPECT_EQ(begins.kind, EventKind::contact_spreads);
@@ -490,21 +461,17 @@ monitor = [
 TEST(LiftingParts, LeaveAsAWholeWhereTheirLoadVanishes) {
   for (const std::string elements : {"28", "56"}) {
     SCOPED_TRACE(elements);
-    const test::TracedDeck traced(R"toml(
-title = "an arch on a floor"
-material.steel = { E = 2.1e4 }
-section.s = { shape = "rectangle", width = 0.8817644439388418, height = 0.11352784663208286 }
-point = { left = [0.0, 0.0], right = [6.8986996716838656, 0.0] }
-support = { left = ["x", "z"], right = ["x", "z"] }
-load = [{ on = "arch", distributed = [0.0, -0.2172563805795922] }]
-path = { step = 0.05, jumps = false, stop = { lambda = [-3.0, 3.0] } }
-member.arch = { from = "left", to = "right", via = [3.4493498358419328, 0.8625890727838164], theory = "elastica", material = "steel", section = "s", elements = 28 }
-[[wall]]
-name = "floor"
-side = "below"
-profile = { type = "line", z = -0.7237534713191682, slope = -0.019898799577229256 }
-)toml",
-                                  {"member.arch.elements=" + elements});
+    const test::TracedDeck traced(
+        title("an arch on a floor") + material("steel", 2.1e4) +
+            rectangle("s", 0.8817644439388418, 0.11352784663208286) +
+            points({{"left", 0.0, 0.0}, {"right", 6.8986996716838656, 0.0}}) +
+            supports({{"left", "x z"}, {"right", "x z"}}) + distributed("arch", 0.0, -0.2172563805795922) +
+            path("step = 0.05; jumps = false; stop = { lambda = [-3.0, 3.0] }") +
+            member("arch", "left", "right", "elastica", 28, "via = [3.4493498358419328, 0.8625890727838164]", "steel") +
+            wall(
+                "floor",
+                R"(side = "below"; profile = { type = "line", z = -0.7237534713191682, slope = -0.019898799577229256 })"),
+        {"member.arch.elements=" + elements});
     const RecordEvent& splits = test::event_of(traced, EventKind::contact_splits);
     EXPECT_EQ(splits.contacts.size(), 2U);
     EXPECT_NEAR(splits.lambda, 0.0, 1e-11);
@@ -517,18 +484,12 @@ profile = { type = "line", z = -0.7237534713191682, slope = -0.01989879957722925
 // √(EI/N) there. Elements that are much longer let the wall pull at some lift, which ends the path and names
 // how many follow. With these the path goes on beyond, and no wall pulls.
 TEST(LiftingParts, EndWhereACoarseMeshLetsTheWallPullSlow) {
-  const std::string chain = R"toml(
-title = "Chain lifted off the sea floor"
-material.chain = { E = 1.0e6 }
-section.chain = { shape = "general", A = 0.1, I = 1.0e-5 }
-point = { anchor = [0.0, 0.0], fairlead = [300.0, 0.0] }
-support.anchor = ["x", "z"]
-member.chain = { from = "anchor", to = "fairlead", theory = "elastica", material = "chain", section = "chain", elements = 60 }
-wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = 0.0 } }]
-load = [{ on = "chain", distributed = [0.0, -1.0], constant = true }]
-prescribed = [{ at = "fairlead", x = 0.0, z = 1.0 }]
-path = { step = 0.1, stop = { lambda = [-1.0, 1.8] } }
-)toml";
+  const std::string chain =
+      title("Chain lifted off the sea floor") + material("chain", 1.0e6) + general_section("chain", 0.1, 1.0e-5) +
+      points({{"anchor", 0.0, 0.0}, {"fairlead", 300.0, 0.0}}) + supports({{"anchor", "x z"}}) +
+      member("chain", "anchor", "fairlead", "elastica", 60, "", "chain", "chain") +
+      flat_wall("floor", "below", 0.0, on_axis) + distributed("chain", 0.0, -1.0, constant) +
+      prescribed("fairlead", "x = 0.0; z = 1.0") + path("step = 0.1; stop = { lambda = [-1.0, 1.8] }");
   const test::TracedDeck coarse(chain);
   const BranchEnd& end = *coarse.record().branches.back().end;
   ASSERT_EQ(end.reason, EndReason::not_modelled);

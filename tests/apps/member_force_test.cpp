@@ -9,16 +9,15 @@
 #include "core/error.hpp"
 #include "tests/apps/traced_deck.hpp"
 #include "tests/model/deck/sample_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::member_force_test {
+
+using namespace test::tables;
 
 namespace {
 
 using test::TracedDeck;
-
-std::string monitor(const std::string& name, const std::string& at, const std::string& component) {
-  return "[[monitor]]\nname = \"" + name + "\"\nat = \"" + at + "\"\ncomponent = \"" + component + "\"\n";
-}
 
 // A cantilever along x with the force (−0.3, −1) at its tip, and what it carries in the clamp and in its middle.
 std::string clamped_strip(const std::string& theory, const std::string& more = "") {
@@ -34,14 +33,8 @@ to = "tip"
 material = "m"
 section = "s"
 elements = 8
-)" + theory + R"(
-[[load]]
-at = "tip"
-force = [-0.3, -1.0]
-[path]
-step = 0.1
-stop = { lambda = [-1.0, 1.0] }
-)" + more;
+)" + theory + "\n" + force("tip", -0.3, -1.0) +
+                     path("step = 0.1; stop = { lambda = [-1.0, 1.0] }") + more;
   deck += monitor("N0", "clamp", "axial-force") + monitor("M0", "beam:0", "moment");
   deck += monitor("N", "beam:0.5", "axial-force") + monitor("M", "beam:0.5", "moment");
   deck += monitor("Rx", "clamp", "reaction-x") + monitor("Rm", "clamp", "reaction-moment");
@@ -179,15 +172,8 @@ TEST(MemberForce, CanStopAPath) {
 }
 
 TEST(MemberForce, IsRefusedWhereItIsNotOne) {
-  const std::string second = R"([member.more]
-from = "tip"
-to = "clamp"
-via = [2.0, 2.0]
-theory = "euler-bernoulli"
-material = "m"
-section = "s"
-elements = 8
-[[load]])";
+  const std::string second =
+      member("more", "tip", "clamp", "euler-bernoulli", 8, "via = [2.0, 2.0]") + table("[[load]]", "");
   const std::string both = deck::replaced(clamped_strip("theory = \"euler-bernoulli\""), "[[load]]", second);
   EXPECT_NE(said_of(both).find("does not have this component"), std::string::npos);
 }

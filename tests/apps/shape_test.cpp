@@ -8,8 +8,11 @@
 #include "apps/cli/example_decks.hpp"
 #include "model/deck/reader.hpp"
 #include "tests/apps/traced_deck.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::shape_test {
+
+using namespace test::tables;
 
 namespace {
 
@@ -44,29 +47,9 @@ theory = ")" +
 clamp = ["x", "z", "rotation"]
 [[load]]
 )" + load +
-         R"(
-[path]
-step = 0.1
-output_at = { lambda = [1.0] }
-[path.stop]
-lambda = [-1.0, 1.0]
-[[monitor]]
-name = "tip"
-at = "tip"
-component = "z"
-[[monitor]]
-name = "turn"
-at = "beam:1"
-component = "rotation"
-[[monitor]]
-name = "moment"
-at = "clamp"
-component = "reaction-moment"
-[[monitor]]
-name = "push"
-at = "clamp"
-component = "reaction-x"
-)";
+         path("step = 0.1; output_at = { lambda = [1.0] }; stop = { lambda = [-1.0, 1.0] }") +
+         monitor("tip", "tip", "z") + monitor("turn", "beam:1", "rotation") +
+         monitor("moment", "clamp", "reaction-moment") + monitor("push", "clamp", "reaction-x");
 }
 
 const std::vector<std::pair<std::string, std::string>> theories{{"euler-bernoulli", ""},
@@ -156,26 +139,14 @@ TEST(Shape, ForcesJumpAtALoadOnly) {
 // Two bars under a load at their apex, which carries 2 N sin of their slope, whatever the strain.
 TEST(Shape, BarsCarryTheLoadAlongThemselves) {
   for (const std::string strain : {"green", "engineering", "log"}) {
-    const TracedDeck traced(
-        R"(
-title = "Two bars"
-material.m = { E = 1e3 }
-section.s = { shape = "general", A = 1.0, I = 1.0 }
-point = { a = [-1.0, 0.0], b = [0.0, 1.0], c = [1.0, 0.0] }
-support = { a = ["x", "z"], c = ["x", "z"] }
-path = { step = 0.1, stop = { lambda = [-1.0, 1.0] } }
-[member]
-ab = { from = "a", to = "b", theory = "truss", material = "m", section = "s", elements = 1, strain = "STRAIN" }
-bc = { from = "b", to = "c", theory = "truss", material = "m", section = "s", elements = 1, strain = "STRAIN" }
-[[load]]
-at = "b"
-force = [0.0, -60.0]
-[[monitor]]
-name = "down"
-at = "b"
-component = "z"
-)",
-        {"member.ab.strain=\"" + strain + "\"", "member.bc.strain=\"" + strain + "\""});
+    const TracedDeck traced(title("Two bars") + material("m", 1e3) + general_section("s", 1.0, 1.0) +
+                                points({{"a", -1.0, 0.0}, {"b", 0.0, 1.0}, {"c", 1.0, 0.0}}) +
+                                supports({{"a", "x z"}, {"c", "x z"}}) +
+                                path("step = 0.1; stop = { lambda = [-1.0, 1.0] }") +
+                                member("ab", "a", "b", "truss", 1, R"(strain = "STRAIN")") +
+                                member("bc", "b", "c", "truss", 1, R"(strain = "STRAIN")") + force("b", 0.0, -60.0) +
+                                monitor("down", "b", "z"),
+                            {"member.ab.strain=\"" + strain + "\"", "member.bc.strain=\"" + strain + "\""});
     const Shape shape = shape_of(traced.model(), traced.last());
     ASSERT_EQ(shape.members.size(), 2u);
     for (const MemberShape& member : shape.members)

@@ -5,8 +5,11 @@
 #include <string>
 
 #include "tests/apps/loading/loading_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::strands_test {
+
+using namespace test::tables;
 
 namespace {
 
@@ -34,45 +37,17 @@ step = 0.02
 output_at = { lambda = [0.1, 1.0] }
 stop = { lambda = [-0.1, 1.0] }
 )" + loads +
-         R"(
-[[load]]
-on = "left"
-pressure = 2e-3
-[[load]]
-on = "left"
-distributed = [1e-4, 1e-3]
-frame = "member"
-[[load]]
-on = "left"
-gradient = 0.05
-)" + monitors;
+         table("[[load]]", R"(on = "left"; pressure = 2e-3)") + distributed("left", 1e-4, 1e-3, R"(frame = "member")") +
+         table("[[load]]", R"(on = "left"; gradient = 0.05)") + monitors;
 }
 
-const std::string onwards = R"(
-[[load]]
-on = "right"
-pressure = 2e-3
-[[load]]
-on = "right"
-distributed = [1e-4, 1e-3]
-frame = "member"
-[[load]]
-on = "right"
-gradient = 0.05
-)";
+const std::string onwards = table("[[load]]", R"(on = "right"; pressure = 2e-3)") +
+                            distributed("right", 1e-4, 1e-3, R"(frame = "member")") +
+                            table("[[load]]", R"(on = "right"; gradient = 0.05)");
 
-const std::string backwards = R"(
-[[load]]
-on = "right"
-pressure = -2e-3
-[[load]]
-on = "right"
-distributed = [-1e-4, -1e-3]
-frame = "member"
-[[load]]
-on = "right"
-gradient = -0.05
-)";
+const std::string backwards = table("[[load]]", R"(on = "right"; pressure = -2e-3)") +
+                              distributed("right", -1e-4, -1e-3, R"(frame = "member")") +
+                              table("[[load]]", R"(on = "right"; gradient = -0.05)");
 
 std::string monitors_at(double fraction, bool reversed) {
   const auto at = fmt::format("at = \"right:{}\"", reversed ? 1.0 - fraction : fraction);
@@ -117,40 +92,14 @@ TEST(Strands, RunThroughMembersOfEitherDirection) {
 // that.
 TEST(Strands, AreThoseOfThePathWhileConstantLoadsGrow) {
   const double q = 1e-6, EI = 1.0, L = 20.0, sag = 5.0 * q * L * L * L * L / (384.0 * EI);
-  const TracedDeck traced(R"(
-title = "Beam"
-material.m = { E = 1.0 }
-section.s = { shape = "rectangle", width = 12.0, height = 1.0 }
-point = { A = [0.0, 0.0], C = [10.0, 0.0], B = [20.0, 0.0] }
-support = { A = ["x", "z"], B = ["z"] }
-[member]
-left = { from = "A", to = "C", theory = "elastica", material = "m", section = "s", elements = 10 }
-right = { from = "C", to = "B", theory = "elastica", material = "m", section = "s", elements = 10 }
-[[wall]]
-name = "floor"
-side = "below"
-profile = { type = "flat", z = -0.8 }
-[[load]]
-on = "left"
-distributed = [0.0, -1e-6]
-constant = true
-[[load]]
-on = "right"
-distributed = [0.0, -1e-6]
-constant = true
-[[load]]
-on = "right"
-distributed = [0.0, 1e-6]
-[path]
-step = 0.05
-max_step = 0.05
-jumps = false
-stop = { lambda = [-0.1, 1.0] }
-[[monitor]]
-name = "middle"
-at = "C"
-component = "z"
-)");
+  const TracedDeck traced(title("Beam") + material("m", 1.0) + rectangle("s", 12.0, 1.0) +
+                          points({{"A", 0.0, 0.0}, {"C", 10.0, 0.0}, {"B", 20.0, 0.0}}) +
+                          supports({{"A", "x z"}, {"B", "z"}}) + member("left", "A", "C", "elastica", 10) +
+                          member("right", "C", "B", "elastica", 10) + flat_wall("floor", "below", -0.8) +
+                          distributed("left", 0.0, -1e-6, constant) + distributed("right", 0.0, -1e-6, constant) +
+                          distributed("right", 0.0, 1e-6) +
+                          path("step = 0.05; max_step = 0.05; jumps = false; stop = { lambda = [-0.1, 1.0] }") +
+                          monitor("middle", "C", "z"));
   EXPECT_NEAR(traced.record().points.front().monitors[0], -sag, 1e-3 * sag);
   EXPECT_NEAR(traced.record().points.back().monitors[0], -0.5 * sag, 1e-3 * sag);
   expect_confirmed(traced);

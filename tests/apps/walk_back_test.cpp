@@ -4,69 +4,25 @@
 #include <string>
 
 #include "tests/apps/traced_deck.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::walk_back_test {
+
+using namespace test::tables;
 namespace {
 
 // A strip of two thicknesses, pushed together between two flat walls. Contact at nodes, on 40 and on 80 elements a
 // member, follows it with λ growing all the way to 7.07: the contact at the joint opens on the way.
-const std::string stepped = R"toml(title = "stepped strip"
-[material.steel]
-E = 21000.0
-[section.s]
-shape = "rectangle"
-width = 0.7890606294094236
-height = 0.1267474851349183
-[section.t]
-shape = "rectangle"
-width = 0.7890606294094236
-height = 0.1517680229730473
-[member.thin]
-from = "left"
-to = "joint"
-theory = "elastica"
-material = "steel"
-section = "s"
-elements = 20
-imperfection = { shape = "sine", amplitude = 0.018343140464892185, waves = 2 }
-[member.thick]
-from = "joint"
-to = "right"
-theory = "elastica"
-material = "steel"
-section = "t"
-elements = 20
-[point]
-left = [0.0, 0.0]
-joint = [3.5571845498618875, 0.0]
-right = [7.787215995808299, 0.0]
-[support]
-left = ["x", "z"]
-right = ["z"]
-[[load]]
-at = "right"
-force = [-0.45761661018592664, 0.0]
-[[load]]
-at = "joint"
-force = [0.0, -0.0045739479453340785]
-[[wall]]
-name = "upper"
-side = "above"
-profile = { type = "flat", z = 0.6873220269829299 }
-[[wall]]
-name = "lower"
-side = "below"
-profile = { type = "flat", z = -0.6873220269829299 }
-[[monitor]]
-name = "shortening"
-at = "right"
-component = "x"
-sign = -1
-[path]
-step = 0.05
-stop = { lambda = [-1.0, 7.07], shortening = [-1.55, 5.45] }
-jumps = false
-)toml";
+const std::string stepped =
+    title("stepped strip") + material("steel", 21000.0) + rectangle("s", 0.7890606294094236, 0.1267474851349183) +
+    rectangle("t", 0.7890606294094236, 0.1517680229730473) +
+    member("thin", "left", "joint", "elastica", 20, imperfection({{2, 0.018343140464892185}}), "steel") +
+    member("thick", "joint", "right", "elastica", 20, "", "steel", "t") +
+    points({{"left", 0.0, 0.0}, {"joint", 3.5571845498618875, 0.0}, {"right", 7.787215995808299, 0.0}}) +
+    supports({{"left", "x z"}, {"right", "z"}}) + force("right", -0.45761661018592664, 0.0) +
+    force("joint", 0.0, -0.0045739479453340785) + channel(0.6873220269829299) +
+    monitor("shortening", "right", "x", flipped) +
+    path("step = 0.05; stop = { lambda = [-1.0, 7.07], shortening = [-1.55, 5.45] }; jumps = false");
 
 }  // namespace
 
@@ -89,17 +45,12 @@ TEST(WalkBack, IsNoneWhereAZoneBeginsAtAJoint) {
 
 // Unloading from 6.5 brings contact back to the joint at the load at which it left.
 TEST(WalkBack, UnloadingReturnsContactToTheJoint) {
-  const test::TracedDeck traced(stepped.substr(0, stepped.find("[path]")) + R"toml([[stage]]
-name = "in"
-drives = ["load.0", "load.1"]
-step = 0.05
-stop = { lambda = [-1.0, 6.5] }
-[[stage]]
-name = "out"
-drives = ["load.0", "load.1"]
-step = -0.05
-stop = { lambda = [-0.6, 1.0] }
-)toml");
+  const test::TracedDeck traced(
+      stepped.substr(0, stepped.find("[path]")) +
+      table("[[stage]]",
+            R"(name = "in"; drives = ["load.0", "load.1"]; step = 0.05; stop = { lambda = [-1.0, 6.5] })") +
+      table("[[stage]]",
+            R"(name = "out"; drives = ["load.0", "load.1"]; step = -0.05; stop = { lambda = [-0.6, 1.0] })"));
   const double merge = test::event_of(traced, EventKind::contacts_merge).lambda;
   EXPECT_NEAR(6.5 + test::event_of(traced, EventKind::contact_transfers).lambda, merge, 1e-7 * merge);
 }

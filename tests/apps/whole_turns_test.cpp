@@ -6,92 +6,35 @@
 #include <vector>
 
 #include "tests/apps/traced_deck.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::whole_turns_test {
+
+using namespace test::tables;
 namespace {
 
 using test::TracedDeck;
 
 // A perfect column on hinges, which goes right round its foot.
-const std::string column = R"toml(title = "whole turns"
-[material.steel]
-E = 21000.0
-[section.s]
-shape = "rectangle"
-width = 3.918180471015534
-height = 0.6616489527415612
-[member.column]
-from = "foot"
-to = "top"
-theory = "elastica"
-material = "steel"
-section = "s"
-elements = 28
-[point]
-foot = [0.0, 0.0]
-top = [0.0, 28.670695085225667]
-[support]
-foot = ["x", "z"]
-top = ["x"]
-[[load]]
-at = "top"
-force = [0.0, -35.77008178355774]
-[[monitor]]
-name = "side"
-at = "column:0.5"
-component = "x"
-[[monitor]]
-name = "down"
-at = "top"
-component = "z"
-sign = -1
-[path]
-step = 0.05
-stop = { lambda = [-2.0, 3.0], down = [-8.6012085255677, 37.271903610793366] }
-branches = "all"
-jumps = false
-)toml";
+const std::string column =
+    title("whole turns") + material("steel", 21000.0) + rectangle("s", 3.918180471015534, 0.6616489527415612) +
+    member("column", "foot", "top", "elastica", 28, "", "steel") +
+    points({{"foot", 0.0, 0.0}, {"top", 0.0, 28.670695085225667}}) + supports({{"foot", "x z"}, {"top", "x"}}) +
+    force("top", 0.0, -35.77008178355774) + monitor("side", "column:0.5", "x") + monitor("down", "top", "z", flipped) +
+    path(
+        R"(step = 0.05; stop = { lambda = [-2.0, 3.0], down = [-8.6012085255677, 37.271903610793366] }; branches = "all"; jumps = false)");
 
 // A strip that is bent by a push of its end, and pressed beside its middle.
-const std::string strip = R"toml(title = "whole turns"
-[material.steel]
-E = 2.0e5
-[section.strip]
-shape = "rectangle"
-width = 10.0
-height = 0.3
-[point]
-left = [0.0, 0.0]
-right = [100.0, 0.0]
-[support]
-left = ["x", "z", "rotation"]
-right = ["z", "rotation"]
-[member.strip]
-from = "left"
-to = "right"
-theory = "elastica"
-material = "steel"
-section = "strip"
-elements = 40
-imperfection = { shape = "sine", amplitude = 0.02, waves = 1 }
-[[prescribed]]
-at = "right"
-x = -0.5
-constant = true
-[[load]]
-at = "strip:0.4"
-force = [0.0, -1.0]
-[[monitor]]
-name = "mid"
-at = "strip:0.5"
-component = "z"
-[path]
-step = 0.1
-stop = { mid = [-8.0, 8.0], lambda = [-10.0, 20.0] }
-search = true
-search_at = [-5.312, -1.607]
-jumps = false
-)toml";
+const std::string strip =
+    title("whole turns") + material("steel", 2.0e5) + rectangle("strip", 10.0, 0.3) +
+    points({{"left", 0.0, 0.0}, {"right", 100.0, 0.0}}) +
+    supports({{"left", "x z rotation"}, {"right", "z rotation"}}) +
+    member("strip", "left", "right", "elastica", 40, imperfection({{1, 0.02}}), "steel", "strip") +
+    prescribed("right", "x = -0.5; constant = true") + force("strip:0.4", 0.0, -1.0) +
+    monitor("mid", "strip:0.5", "z") +
+    path(
+        "step = 0.1; stop = { mid = [-8.0, 8.0], lambda = [-10.0, 20.0] }; search = true; search_at = [-5.312, "
+        "-1.607]; jumps = false");
 
 }  // namespace
 

@@ -11,9 +11,12 @@
 #include "core/error.hpp"
 #include "model/deck/reader.hpp"
 #include "tests/model/friction_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 // Friction of compliant walls: an elastic slip, and return mapping at material points.
 namespace arcwall::compliant_friction_test {
+
+using namespace test::tables;
 
 namespace {
 
@@ -28,74 +31,17 @@ double dissipated(const Session& run) { return run.points().back().dissipation.f
 // A bar of EA = 210 that an end at A pulls along, and at its other end a block of length 1 that weighs 1 and is pressed
 // on a floor by that alone: μ = 0.3, T ≤ 0.3.
 std::string block(double tangential, double step, const std::string& stages) {
-  return fmt::format(R"(
-[material.m]
-E = 210.0
-[material.stiff]
-E = 1e9
-[section.s]
-shape = "general"
-A = 1.0
-I = 1.0
-[point]
-A = [0.0, 0.0]
-B = [10.0, 0.0]
-C = [11.0, 0.0]
-[member.bar]
-from = "A"
-to = "B"
-theory = "euler-bernoulli"
-material = "m"
-section = "s"
-elements = 1
-[member.block]
-from = "B"
-to = "C"
-theory = "euler-bernoulli"
-material = "stiff"
-section = "s"
-elements = 2
-[support]
-A = ["rotation"]
-[[prescribed]]
-at = "A"
-x = 1.0
-[[load]]
-on = "block"
-distributed = [0.0, -1.0]
-constant = true
-[contact]
-method = "compliant"
-law = {{ stiffness = 100.0, tangential_stiffness = {} }}
-[path]
-step = {}
-[[wall]]
-name = "floor"
-side = "below"
-members = ["block"]
-contact_surface = "axis"
-profile = {{ type = "flat", z = 0.0 }}
-friction = 0.3
-[[monitor]]
-name = "F"
-at = "A"
-component = "reaction-x"
-[[monitor]]
-name = "T"
-wall = "floor"
-component = "friction-force"
-[[monitor]]
-name = "use"
-wall = "floor"
-component = "friction-use"
-[[monitor]]
-name = "w"
-wall = "floor"
-at = "block:0.5"
-component = "slip"
-)",
-                     tangential, step) +
-         stages;
+  return material("m", 210.0) + material("stiff", 1e9) + general_section("s", 1.0, 1.0) +
+         points({{"A", 0.0, 0.0}, {"B", 10.0, 0.0}, {"C", 11.0, 0.0}}) + member("bar", "A", "B", "euler-bernoulli", 1) +
+         member("block", "B", "C", "euler-bernoulli", 2, "", "stiff") + supports({{"A", "rotation"}}) +
+         prescribed("A", "x = 1.0") + distributed("block", 0.0, -1.0, constant) +
+         contact(fmt::format(R"(method = "compliant"; law = {{ stiffness = 100.0, tangential_stiffness = {} }})",
+                             tangential)) +
+         path(fmt::format("step = {}", step)) +
+         flat_wall("floor", "below", 0.0, R"(members = ["block"]; contact_surface = "axis"; friction = 0.3)") +
+         monitor("F", "A", "reaction-x") + wall_monitor("T", "floor", "friction-force") +
+         wall_monitor("use", "floor", "friction-use") +
+         table("[[monitor]]", R"(name = "w"; wall = "floor"; at = "block:0.5"; component = "slip")") + stages;
 }
 
 std::string cycle(double step) {
@@ -106,47 +52,12 @@ std::string cycle(double step) {
 // A bar of EA = 210 and length 10 that lies on a floor with a weight of 0.05 by length, pushed at its left end; the
 // friction is 0.02 by length at most.
 std::string heavy_bar(int elements, double tangential, double step, double far) {
-  return fmt::format(R"(
-[material.m]
-E = 210.0
-[section.s]
-shape = "general"
-A = 1.0
-I = 1.0
-[point]
-A = [0.0, 0.0]
-B = [10.0, 0.0]
-[member.bar]
-from = "A"
-to = "B"
-theory = "euler-bernoulli"
-material = "m"
-section = "s"
-elements = {}
-[support]
-A = ["rotation"]
-[[prescribed]]
-at = "A"
-x = 1.0
-[[load]]
-on = "bar"
-distributed = [0.0, -0.05]
-constant = true
-[contact]
-method = "compliant"
-law = {{ stiffness = 100.0, tangential_stiffness = {} }}
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = {{ type = "flat", z = 0.0 }}
-friction = 0.4
-[[monitor]]
-name = "F"
-at = "A"
-component = "reaction-x"
-)",
-                     elements, tangential) +
+  return material("m", 210.0) + general_section("s", 1.0, 1.0) + points({{"A", 0.0, 0.0}, {"B", 10.0, 0.0}}) +
+         member("bar", "A", "B", "euler-bernoulli", elements) + supports({{"A", "rotation"}}) +
+         prescribed("A", "x = 1.0") + distributed("bar", 0.0, -0.05, constant) +
+         contact(fmt::format(R"(method = "compliant"; law = {{ stiffness = 100.0, tangential_stiffness = {} }})",
+                             tangential)) +
+         flat_wall("floor", "below", 0.0, rough(0.4)) + monitor("F", "A", "reaction-x") +
          stage("push", "prescribed.0", step, -1.0, far);
 }
 

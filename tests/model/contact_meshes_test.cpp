@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "tests/model/traced_session.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::contact_meshes_test {
+
+using namespace test::tables;
 namespace {
 
 // A clamped arch of a sine that snaps sideways under a load at its crown, touches a floor, and comes to rest with its
@@ -65,24 +68,13 @@ std::string column(int elements) {
 
 // A column whose steps end short of its third touch or beyond it.
 std::string column_between_walls() {
-  return R"toml(title = "a column on few elements"
-material.m = { E = 21000.0, nu = 0.3 }
-section.s = { shape = "rectangle", width = 4.7, height = 0.6258 }
-point = { left = [0.0, 0.0], right = [30.38, 0.0] }
-support = { left = ["x", "z", "rotation"], right = ["z", "rotation"] }
-load = [{ at = "right", force = [-86.227, 0.0] }, { at = "column:0.5", force = [0.0, -3.6016], constant = true }]
-wall = [{ name = "upper", side = "above", profile = { type = "flat", z = 2.005 } }, { name = "lower", side = "below", profile = { type = "flat", z = -2.005 } }]
-[member.column]
-from = "left"
-to = "right"
-theory = "euler-bernoulli"
-material = "m"
-section = "s"
-elements = 14
-imperfection = [{ shape = "sine", amplitude = 0.3708, waves = 1 }, { shape = "sine", amplitude = -0.00196, waves = 2 }, { shape = "sine", amplitude = -0.10538, waves = 3 }]
-[path]
-stop = { lambda = [-1.0, 6.38] }
-)toml";
+  return title("a column on few elements") + material("m", 21000.0, "nu = 0.3") + rectangle("s", 4.7, 0.6258) +
+         points({{"left", 0.0, 0.0}, {"right", 30.38, 0.0}}) +
+         supports({{"left", "x z rotation"}, {"right", "z rotation"}}) + force("right", -86.227, 0.0) +
+         force("column:0.5", 0.0, -3.6016, constant) + channel(2.005) +
+         member("column", "left", "right", "euler-bernoulli", 14,
+                imperfection({{1, 0.3708}, {2, -0.00196}, {3, -0.10538}})) +
+         path("stop = { lambda = [-1.0, 6.38] }");
 }
 
 std::vector<EventKind> kinds_of(const Session& run) {
@@ -241,25 +233,12 @@ TEST(ContactMeshes, WhereATouchIsForeseenDoesNotMatterBesidePartsOfAboutOneLengt
 // A spring whose law has kinks numbers the contacts anew. A zone stays one contact beside it: what spreads is not told
 // as splitting. The spring is so soft that loads are those without it.
 TEST(ContactMeshes, AZoneIsOneContactBesideASpringWithKinks) {
-  const std::string column = R"toml(
-title = "Column below a wall"
-material.m = { E = 21000.0 }
-section.s = { shape = "rectangle", width = 1.0, height = 0.1 }
-point = { a = [0.0, 0.0], b = [10.0, 0.0] }
-support = { a = ["x", "z", "rotation"], b = ["z", "rotation"] }
-load = [{ at = "b", force = [-1.0, 0.0] }]
-wall = [{ name = "up", side = "above", contact_surface = "axis", profile = { type = "flat", z = 0.2 } }]
-path = { step = 0.1, stop = { lambda = [-1.0, 3.0] } }
-monitor = [{ name = "mid", at = "m:0.5", component = "z" }]
-[member.m]
-from = "a"
-to = "b"
-theory = "elastica"
-material = "m"
-section = "s"
-elements = 40
-imperfection = { shape = "sine", amplitude = 0.01, waves = 1 }
-)toml";
+  const std::string column = title("Column below a wall") + material("m", 21000.0) + rectangle("s", 1.0, 0.1) +
+                             points({{"a", 0.0, 0.0}, {"b", 10.0, 0.0}}) +
+                             supports({{"a", "x z rotation"}, {"b", "z rotation"}}) + force("b", -1.0, 0.0) +
+                             flat_wall("up", "above", 0.2, on_axis) +
+                             path("step = 0.1; stop = { lambda = [-1.0, 3.0] }") + monitor("mid", "m:0.5", "z") +
+                             member("m", "a", "b", "elastica", 40, imperfection({{1, 0.01}}));
   const std::string spring = R"toml(
 [[spring]]
 name = "soft"

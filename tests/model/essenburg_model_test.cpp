@@ -2,9 +2,12 @@
 
 #include "model/deck/reader.hpp"
 #include "model/model.hpp"
+#include "tests/support/deck_tables.hpp"
 
 // Decks of theory "essenburg" made ready to be traced.
 namespace arcwall::essenburg_model_test {
+
+using namespace test::tables;
 
 namespace {
 
@@ -14,50 +17,12 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return at == std::string::npos ? text : text.replace(at, what.size(), by);
 }
 
-const std::string column = R"(
-title = "Column"
-[material.steel]
-E = 2.1e4
-nu = 0.29
-[section.square]
-shape = "rectangle"
-width = 0.1
-height = 0.1
-[point]
-A = [0.0, 0.0]
-B = [2.0, 0.0]
-[member.column]
-from = "A"
-to = "B"
-theory = "essenburg"
-material = "steel"
-section = "square"
-elements = 4
-[support]
-A = ["x", "z"]
-B = ["z"]
-[[load]]
-at = "B"
-force = [-1.0, 0.0]
-[[wall]]
-name = "upper"
-side = "above"
-profile = { type = "flat", z = 0.2 }
-[[wall]]
-name = "lower"
-side = "below"
-profile = { type = "flat", z = -0.2 }
-[path.stop]
-lambda = [-1.0, 1.0]
-[[monitor]]
-name = "e"
-at = "A"
-component = "thickness"
-[[monitor]]
-name = "xi"
-at = "column:0.5"
-component = "thickness2"
-)";
+const std::string column = title("Column") + material("steel", 2.1e4, "nu = 0.29") + rectangle("square", 0.1, 0.1) +
+                           points({{"A", 0.0, 0.0}, {"B", 2.0, 0.0}}) +
+                           member("column", "A", "B", "essenburg", 4, "", "steel", "square") +
+                           supports({{"A", "x z"}, {"B", "z"}}) + force("B", -1.0, 0.0) + channel(0.2) +
+                           path("stop = { lambda = [-1.0, 1.0] }") + monitor("e", "A", "thickness") +
+                           monitor("xi", "column:0.5", "thickness2");
 
 Model model(const std::string& text) { return Model(deck::read_deck_text(text, "column.toml")); }
 

@@ -12,13 +12,16 @@
 #include "model/deck/writer.hpp"
 #include "model/shape.hpp"
 #include "tests/model/traced_session.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::frame_test {
+
+using namespace test::tables;
 
 namespace {
 
 // A portal whose loaded corner goes to a stop once its columns buckle. All coordinates have few digits.
-constexpr const char* portal = R"toml(
+const std::string portal = R"toml(
 title = "Portal with a stop"
 units = { length = "m", force = "kN" }
 material.steel = { E = 2.1e8 }
@@ -36,43 +39,25 @@ monitor = [{ name = "sway", at = "north-east", component = "x" }, { name = "stop
 )toml";
 
 // Of each kind of key that is a length or a place.
-constexpr const char* walls = R"toml(
-title = "Column between a sloping line, a spline and a polyline that turns"
-material.steel = { E = 2000.0 }
-section.s = { shape = "rectangle", width = 0.5, height = 0.25 }
-point = { a = [0.0, 0.0], b = [10.0, 0.0] }
-support = { a = ["x", "z"], b = ["z"] }
-load = [{ at = "b", force = [-1.0, 0.0] }, { on = "c", distributed = [0.0, 0.001], constant = true }]
-path = { step = 0.1, stop.lambda = [-1.0, 3.0] }
-monitor = [{ name = "mid", at = "c:0.5", component = "z" }, { name = "gap", at = "c:0.5", wall = "round", component = "gap" },
-           { name = "most", member = "c", component = "max-moment" }]
-spring = [{ at = "b", stiffness = { x = 0.01, rotation = 0.5 } },
-          { at = "a", law = { direction = "rotation", displacement = [-1.0, 0.0, 1.0], force = [-0.25, 0.0, 0.5] } },
-          { on = "c", foundation = { z = 0.002 } }]
-[member.c]
-from = "a"
-to = "b"
-theory = "elastica"
-material = "steel"
-section = "s"
-elements = 16
-imperfection = { shape = "sine", amplitude = 0.02, waves = 1 }
-[[wall]]
-name = "slope"
-side = "above"
-profile = { type = "line", z = 0.75, slope = 0.0625 }
-[[wall]]
-name = "round"
-side = "below"
-profile = { type = "circle", centre = [5.0, -6.0], radius = 5.0 }
-[[wall]]
-name = "corner"
-outline = { type = "polyline", x = [9.0, 5.0, 1.0], z = [2.0, 1.5, 2.0] }
-corner_radius = 0.5
-motion = { z = -0.125, rotation = 0.03125, about = [4.0, 1.0] }
-)toml";
+const std::string walls =
+    title("Column between a sloping line, a spline and a polyline that turns") + material("steel", 2000.0) +
+    rectangle("s", 0.5, 0.25) + points({{"a", 0.0, 0.0}, {"b", 10.0, 0.0}}) + supports({{"a", "x z"}, {"b", "z"}}) +
+    force("b", -1.0, 0.0) + distributed("c", 0.0, 0.001, constant) +
+    path("step = 0.1; stop = { lambda = [-1.0, 3.0] }") + monitor("mid", "c:0.5", "z") +
+    table("[[monitor]]", R"(name = "gap"; at = "c:0.5"; wall = "round"; component = "gap")") +
+    table("[[monitor]]", R"(name = "most"; member = "c"; component = "max-moment")") +
+    table("[[spring]]", R"(at = "b"; stiffness = { x = 0.01, rotation = 0.5 })") +
+    table("[[spring]]",
+          R"(at = "a"; law = { direction = "rotation", displacement = [-1.0, 0.0, 1.0], force = [-0.25, 0.0, 0.5] })") +
+    table("[[spring]]", R"(on = "c"; foundation = { z = 0.002 })") +
+    member("c", "a", "b", "elastica", 16, imperfection({{1, 0.02}}), "steel") +
+    wall("slope", R"(side = "above"; profile = { type = "line", z = 0.75, slope = 0.0625 })") +
+    wall("round", R"(side = "below"; profile = { type = "circle", centre = [5.0, -6.0], radius = 5.0 })") +
+    wall(
+        "corner",
+        R"(outline = { type = "polyline", x = [9.0, 5.0, 1.0], z = [2.0, 1.5, 2.0] }; corner_radius = 0.5; motion = { z = -0.125, rotation = 0.03125, about = [4.0, 1.0] })");
 
-constexpr const char* arch = R"toml(
+const std::string arch = R"toml(
 title = "Heated arch under pressure on a curved member's springs"
 material.m = { E = 4000.0, nu = 0.25, expansion = 1.0e-3 }
 section.t = { shape = "tube", radius = 0.25, thickness = 0.0625 }
@@ -136,7 +121,7 @@ TEST(Frame, HasTheStructureBesideItsOriginAndOfItsSize) {
 // A conversion and its inverse change nothing: what is converted at all is so by one power of two and one shift. And it
 // makes the same structure: the deck that is traced as it is, in the user's own coordinates, has the same events.
 TEST(Frame, MakesTheSameStructureOfAnyDeckSlow) {
-  for (const char* const text : {portal, walls, arch}) {
+  for (const std::string& text : {portal, walls, arch}) {
     const deck::Deck original = read(text);
     deck::Deck there = deck::in_frame(original, {.origin = {-2.0, 4.0}, .exponent = 3});
     there.frame = {};
@@ -178,10 +163,10 @@ TEST(FarFromTheOrigin, TheEventsAreThoseBesideIt) {
 // In units that make its lengths 10⁻¹² the structure has the same loads, and everything else in these units.
 TEST(TinyLengths, HaveTheEventsOfOrdinaryOnesSlow) {
   constexpr int e = 40;
-  for (const char* const text : {portal, walls, arch}) {
+  for (const std::string& text : {portal, walls, arch}) {
     const Session ordinary = test::traced(text), tiny = test::traced(written_in(text, {.exponent = e}),
                                                                      [&] {
-                                                                       return std::string(text) == portal ? std::vector<std::string>{"path.stop.sway=[-1e-12, 1e-12]"}
+                                                                       return text == portal ? std::vector<std::string>{"path.stop.sway=[-1e-12, 1e-12]"}
                                          : std::vector<std::string>{};
                                                                      }());
     ASSERT_EQ(tiny.model().frame().exponent, -e);

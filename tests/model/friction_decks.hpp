@@ -11,9 +11,12 @@
 #include <vector>
 
 #include "answers/sessions.hpp"
+#include "tests/support/deck_tables.hpp"
 
 /// Decks with friction, and what is read off their runs.
 namespace arcwall::friction_test {
+
+using namespace test::tables;
 
 inline Session session_of(const std::string& text) {
   return make_session({.deck = "friction.toml", .deck_text = "title = \"Friction\"\n" + text});
@@ -56,45 +59,11 @@ inline bool slips_back(const RecordPoint& point) {
   });
 }
 
-inline const std::string bars = R"(
-[material.m]
-E = 210.0
-[section.s]
-shape = "general"
-A = 1.0
-I = 1.0
-[support]
-A = ["z"]
-[[prescribed]]
-at = "A"
-x = 1.0
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = { type = "flat", z = 0.0 }
-friction = 0.3
-[[monitor]]
-name = "F"
-at = "A"
-component = "reaction-x"
-)";
+inline const std::string bars = material("m", 210.0) + general_section("s", 1.0, 1.0) + supports({{"A", "z"}}) +
+                                prescribed("A", "x = 1.0") + flat_wall("floor", "below", 0.0, rough(0.3)) +
+                                monitor("F", "A", "reaction-x");
 
-inline std::string bar(const std::string& name, const std::string& from, const std::string& to) {
-  return fmt::format(
-      "[member.{}]\nfrom = \"{}\"\nto = \"{}\"\ntheory = \"truss\"\nstrain = \"engineering\"\n"
-      "material = \"m\"\nsection = \"s\"\nelements = 1\n",
-      name, from, to);
-}
-
-inline std::string weight(const std::string& at, double weight) {
-  return fmt::format("[[load]]\nat = \"{}\"\nforce = [0.0, {}]\nconstant = true\n", at, -weight);
-}
-
-inline std::string stage(const std::string& name, const std::string& drives, double step, double low, double high) {
-  return fmt::format("[[stage]]\nname = \"{}\"\ndrives = [\"{}\"]\nstep = {}\nstop = {{ lambda = [{}, {}] }}\n", name,
-                     drives, step, low, high);
-}
+inline std::string weight(const std::string& at, double weight) { return force(at, 0.0, -weight, constant); }
 
 // A block of weight 1 on a spring of stiffness 21, dragged to and fro.
 inline std::string block(double friction) {
@@ -110,138 +79,37 @@ inline std::string block(double friction) {
 // pulled by λ < 0 along x.
 inline std::string incline(double friction) {
   const double angle = 40.0 * std::numbers::pi / 180.0;
-  return fmt::format(R"(
-[material.m]
-E = 1e-9
-[section.s]
-shape = "general"
-A = 1.0
-I = 1.0
-[point]
-O = [0.0, 0.0]
-far = [0.0, 1.0]
-[support]
-far = ["x", "z"]
-[[spring]]
-at = "O"
-stiffness = {{ x = 1.0, z = 10.0 }}
-[[load]]
-at = "O"
-force = [0.0, -1.0]
-[[load]]
-at = "O"
-force = [1.0, 0.0]
-[[wall]]
-name = "slope"
-members = ["bar"]
-contact_surface = "axis"
-outline = {{ type = "half-plane", point = [0.0, 0.0], normal = [{}, {}] }}
-friction = {}
-[[monitor]]
-name = "x"
-at = "O"
-component = "x"
-)",
-                     -std::sin(angle), std::cos(angle), friction) +
-         bar("bar", "O", "far") + stage("press", "load.0", 0.1, -1.0, 1.0) + stage("pull", "load.1", -0.02, -0.4, 1.0);
+  return material("m", 1e-9) + general_section("s", 1.0, 1.0) + points({{"O", 0.0, 0.0}, {"far", 0.0, 1.0}}) +
+         supports({{"far", "x z"}}) + table("[[spring]]", R"(at = "O"; stiffness = { x = 1.0, z = 10.0 })") +
+         force("O", 0.0, -1.0) + force("O", 1.0, 0.0) +
+         wall(
+             "slope",
+             fmt::format(
+                 R"(members = ["bar"]; contact_surface = "axis"; outline = {{ type = "half-plane", point = [0.0, 0.0], normal = [{}, {}] }}; friction = {})",
+                 -std::sin(angle), std::cos(angle), friction)) +
+         monitor("x", "O", "x") + bar("bar", "O", "far") + stage("press", "load.0", 0.1, -1.0, 1.0) +
+         stage("pull", "load.1", -0.02, -0.4, 1.0);
 }
 
 // A strip that a clamp at (0, sin 60°) points down to a floor, whose tip touches it at rest; the clamp goes down.
 inline std::string strip(double friction, const std::string& stages, const std::string& drag = "") {
-  return fmt::format(R"(
-[material.m]
-E = 10000.0
-[section.s]
-shape = "general"
-A = 1.0
-I = 1e-4
-[point]
-clamp = [0.0, 0.8660254037844386]
-tip = [0.5, 0.0]
-[member]
-strip = {{ from = "clamp", to = "tip", theory = "elastica", material = "m", section = "s", elements = 20 }}
-[support]
-{}
-[[prescribed]]
-at = "clamp"
-z = -1.0
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = {{ type = "flat", z = 0.0 }}
-friction = {}
-[[monitor]]
-name = "x"
-at = "tip"
-component = "x"
-[[monitor]]
-name = "T"
-wall = "floor"
-component = "force-x"
-[[monitor]]
-name = "p"
-wall = "floor"
-component = "force-z"
-)",
-                     drag.empty() ? "clamp = [\"x\", \"rotation\"]" : "clamp = [\"rotation\"]", friction) +
-         drag + stages;
+  return material("m", 10000.0) + general_section("s", 1.0, 1e-4) +
+         points({{"clamp", 0.0, 0.8660254037844386}, {"tip", 0.5, 0.0}}) +
+         member("strip", "clamp", "tip", "elastica", 20) +
+         supports({{"clamp", drag.empty() ? "x rotation" : "rotation"}}) + prescribed("clamp", "z = -1.0") +
+         flat_wall("floor", "below", 0.0, rough(friction)) + monitor("x", "tip", "x") +
+         wall_monitor("T", "floor", "force-x") + wall_monitor("p", "floor", "force-z") + drag + stages;
 }
 
 // A pinned column, EI = 0.175 and EA = 210, under the load λ between rough walls at ±0.15. A deviation of 1e-9 makes it
 // buckle upwards.
 inline std::string column(double friction, const std::string& stages, const std::string& more = "") {
-  return fmt::format(R"(
-[material.m]
-E = 210.0
-[section.s]
-shape = "general"
-A = 1.0
-I = 8.333333333333333e-4
-[point]
-left = [0.0, 0.0]
-right = [2.0, 0.0]
-[member.column]
-from = "left"
-to = "right"
-theory = "elastica"
-material = "m"
-section = "s"
-elements = 20
-imperfection = [{{ shape = "sine", amplitude = 1e-9, waves = 1 }}]
-[support]
-left = ["x", "z"]
-right = ["z"]
-[contact]
-points = "moving"
-[[load]]
-at = "right"
-force = [-1.0, 0.0]
-[[wall]]
-name = "upper"
-side = "above"
-contact_surface = "axis"
-profile = {{ type = "flat", z = 0.15 }}
-friction = {0}
-[[wall]]
-name = "lower"
-side = "below"
-contact_surface = "axis"
-profile = {{ type = "flat", z = -0.15 }}
-friction = {0}
-[[monitor]]
-name = "shortening"
-at = "right"
-component = "x"
-sign = -1
-[[monitor]]
-name = "p"
-wall = "upper"
-component = "force-z"
-sign = -1
-)",
-                     friction) +
-         more + stages;
+  return material("m", 210.0) + general_section("s", 1.0, 8.333333333333333e-4) +
+         points({{"left", 0.0, 0.0}, {"right", 2.0, 0.0}}) +
+         member("column", "left", "right", "elastica", 20, imperfection({{1, 1e-9}})) +
+         supports({{"left", "x z"}, {"right", "z"}}) + moving_contact + force("right", -1.0, 0.0) +
+         channel(0.15, rough(friction)) + monitor("shortening", "right", "x", flipped) +
+         wall_monitor("p", "upper", "force-z", flipped) + more + stages;
 }
 
 inline double lost_until(const RecordPoint& point) {

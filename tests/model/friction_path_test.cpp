@@ -9,9 +9,12 @@
 
 #include "model/event_names.hpp"
 #include "tests/model/friction_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 // What friction dissipates, reversals, and what must not change the path. References as in friction_test.cpp.
 namespace arcwall::friction_test {
+
+using namespace test::tables;
 
 namespace {
 
@@ -197,36 +200,12 @@ TEST(FrictionPath, StepsAndMethodsDoNotChangeTheEvents) {
 }
 
 TEST(FrictionPath, UnitsDoNotChangeTheEvents) {
-  const auto in_units = [](double length, double force) {
-    return fmt::format(R"(
-[material.m]
-E = {}
-[section.s]
-shape = "general"
-A = {}
-I = {}
-[point]
-A = [0.0, 0.0]
-B = [{}, 0.0]
-[support]
-A = ["z"]
-[[prescribed]]
-at = "A"
-x = {}
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = {{ type = "flat", z = 0.0 }}
-friction = 0.3
-[[load]]
-at = "B"
-force = [0.0, {}]
-constant = true
-)",
-                       210.0 * force / (length * length), length * length, std::pow(length, 4), 10.0 * length, length,
-                       -force) +
-           bar("bar", "A", "B") + stage("out", "prescribed.0", 0.005, -1.0, 0.05) +
+  const auto in_units = [](double length, double newton) {
+    return material("m", 210.0 * newton / (length * length)) +
+           general_section("s", length * length, std::pow(length, 4)) +
+           points({{"A", 0.0, 0.0}, {"B", 10.0 * length, 0.0}}) + supports({{"A", "z"}}) +
+           prescribed("A", fmt::format("x = {}", length)) + flat_wall("floor", "below", 0.0, rough(0.3)) +
+           force("B", 0.0, -newton, constant) + bar("bar", "A", "B") + stage("out", "prescribed.0", 0.005, -1.0, 0.05) +
            stage("back", "prescribed.0", -0.005, -0.1, 1.0);
   };
   const std::vector<double> expected = changes(run_of(in_units(1.0, 1.0)));
@@ -263,32 +242,13 @@ TEST(FrictionPath, ARopeLeavesItsDrumInEachCopyAlikeSlow) {
 // A reed is bent round a card that comes under it. Behind the snap the slip would turn back at 11.9425, and a stick
 // would leave the cone: measured on one that was forced, |T| − μ p grows by 2.6 Δλ².
 TEST(FrictionPath, JamsWhereAStickWouldLeaveTheCone) {
-  const Session run = run_of(R"(
-[material.s]
-E = 2e5
-[section.s]
-shape = "rectangle"
-width = 5.0
-height = 0.5
-[point]
-p = [0.0, 30.0]
-e = [0.0, 0.0]
-[support]
-p = ["x", "z", "rotation"]
-[member.s]
-from = "p"
-to = "e"
-theory = "elastica"
-material = "s"
-section = "s"
-elements = 16
-[[wall]]
-name = "card"
-contact_surface = "axis"
-friction = 0.3
-outline = { type = "circle", centre = [6.0, -1.0], radius = 2.0 }
-motion = { x = -1.0 }
-)" + stage("go", "wall.card", 0.05, -0.1, 16.0));
+  const Session run = run_of(
+      material("s", 2e5) + rectangle("s", 5.0, 0.5) + points({{"p", 0.0, 30.0}, {"e", 0.0, 0.0}}) +
+      supports({{"p", "x z rotation"}}) + member("s", "p", "e", "elastica", 16, "", "s") +
+      wall(
+          "card",
+          R"(contact_surface = "axis"; friction = 0.3; outline = { type = "circle", centre = [6.0, -1.0], radius = 2.0 }; motion = { x = -1.0 })") +
+      stage("go", "wall.card", 0.05, -0.1, 16.0));
   EXPECT_EQ(reason(run), EndReason::jammed);
   EXPECT_NEAR(run.points().back().lambda, 11.94248, 1e-5);
   EXPECT_TRUE(lambdas(run, EventKind::contact_sticks, 0).empty());
@@ -296,44 +256,17 @@ motion = { x = -1.0 }
 
 // A ladder whose contacts slip or stick from the start, and a block that is dragged to and fro.
 TEST(FrictionPath, BeginsAtLambdaZero) {
-  const std::string ladder = R"(
-[material.alu]
-E = 7e7
-[section.rail]
-shape = "rectangle"
-width = 0.06
-height = 0.08
-[point]
-foot = [0.0, 0.0]
-top = [1.5, 4.0]
-[path]
-step = 0.05
-stop = { lambda = [-0.1, 2.0] }
-[member.ladder]
-from = "foot"
-to = "top"
-theory = "euler-bernoulli"
-material = "alu"
-section = "rail"
-elements = 20
-[[load]]
-at = "ladder:0.25"
-force = [0.0, -1.0]
-constant = true
-[[load]]
-at = "ladder:0.75"
-force = [0.0, -1.0]
-[[wall]]
-name = "floor"
-contact_surface = "axis"
-friction = 0.3
-outline = { type = "half-plane", point = [0.0, 0.0], normal = [0.0, 1.0] }
-[[wall]]
-name = "house"
-contact_surface = "axis"
-friction = 0.2
-outline = { type = "half-plane", point = [1.5, 0.0], normal = [-1.0, 0.0] }
-)";
+  const std::string ladder =
+      material("alu", 7e7) + rectangle("rail", 0.06, 0.08) + points({{"foot", 0.0, 0.0}, {"top", 1.5, 4.0}}) +
+      path("step = 0.05; stop = { lambda = [-0.1, 2.0] }") +
+      member("ladder", "foot", "top", "euler-bernoulli", 20, "", "alu", "rail") +
+      force("ladder:0.25", 0.0, -1.0, constant) + force("ladder:0.75", 0.0, -1.0) +
+      wall(
+          "floor",
+          R"(contact_surface = "axis"; friction = 0.3; outline = { type = "half-plane", point = [0.0, 0.0], normal = [0.0, 1.0] })") +
+      wall(
+          "house",
+          R"(contact_surface = "axis"; friction = 0.2; outline = { type = "half-plane", point = [1.5, 0.0], normal = [-1.0, 0.0] })");
   for (const std::string& text : {ladder, block(0.3), rope(false, false)}) {
     const Session run = run_of(text);
     for (const RecordPoint& point : run.points())

@@ -10,10 +10,13 @@
 #include "core/error.hpp"
 #include "model/dissipation.hpp"
 #include "tests/model/friction_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 // Contact with Coulomb friction at nodes and free ends. The references of blocks on springs and of a node on an incline
 // are closed forms; the strips are shot elasticas (extensible, θ′ = M/EI, fixed steps of order 8), all digits given.
 namespace arcwall::friction_test {
+
+using namespace test::tables;
 
 TEST(Friction, BlockOnASpringSlipsAndSticks) {
   const Session session = run_of(block(0.3));
@@ -149,45 +152,14 @@ TEST(Friction, AWallWithoutFrictionIsAsBefore) {
 
 // Natural curvature 1, EA/EI = 10⁵, shot: 0.625382563985 and 1.666264845603 at 0.1 and 0.3. Nothing rubs.
 TEST(Friction, RingOnARoughPlateHasNone) {
-  const Session session = run_of(R"(
-[material.m]
-E = 1.0
-[section.s]
-shape = "general"
-A = 1e5
-I = 1.0
-[point]
-bottom = [0.0, -1.0]
-top = [0.0, 1.0]
-[member]
-right = { from = "bottom", to = "top", via = [1.0, 0.0], theory = "elastica", material = "m", section = "s", elements = 24 }
-left = { from = "top", to = "bottom", via = [-1.0, 0.0], theory = "elastica", material = "m", section = "s", elements = 24 }
-[support]
-bottom = ["rotation"]
-top = ["x", "rotation"]
-[[prescribed]]
-at = "top"
-z = -1.0
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = { type = "flat", z = -1.0 }
-friction = 0.5
-[[monitor]]
-name = "force"
-wall = "floor"
-component = "force-z"
-[[monitor]]
-name = "use"
-wall = "floor"
-component = "friction-use"
-[path]
-step = 0.01
-output_at = { lambda = [0.1] }
-[path.stop]
-lambda = [-1.0, 0.3]
-)");
+  const Session session =
+      run_of(material("m", 1.0) + general_section("s", 1e5, 1.0) + points({{"bottom", 0.0, -1.0}, {"top", 0.0, 1.0}}) +
+             member("right", "bottom", "top", "elastica", 24, "via = [1.0, 0.0]") +
+             member("left", "top", "bottom", "elastica", 24, "via = [-1.0, 0.0]") +
+             supports({{"bottom", "rotation"}, {"top", "x rotation"}}) + prescribed("top", "z = -1.0") +
+             flat_wall("floor", "below", -1.0, rough(0.5)) + wall_monitor("force", "floor", "force-z") +
+             wall_monitor("use", "floor", "friction-use") +
+             path("step = 0.01; output_at = { lambda = [0.1] }; stop = { lambda = [-1.0, 0.3] }"));
   EXPECT_EQ(reason(session), EndReason::stop);
   for (const RecordPoint& point : session.points()) {
     if (point.lambda == 0.1) {

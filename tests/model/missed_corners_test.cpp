@@ -11,28 +11,15 @@
 
 #include "answers/sessions.hpp"
 #include "tests/model/traced_session.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::missed_corners_test {
+
+using namespace test::tables;
 namespace {
 
-const std::string common = R"toml(
-[material.steel]
-E = 21000.0
-nu = 0.3
-[section.s]
-shape = "rectangle"
-width = 0.85
-height = 0.145
-[[wall]]
-name = "floor"
-side = "below"
-profile = { type = "flat", z = -0.6 }
-[[monitor]]
-name = "down"
-at = "top"
-component = "z"
-sign = -1
-)toml";
+const std::string common = material("steel", 21000.0, "nu = 0.3") + rectangle("s", 0.85, 0.145) +
+                           flat_wall("floor", "below", -0.6) + monitor("down", "top", "z", flipped);
 
 std::string toggle(int elements) {
   const std::string more =

@@ -8,8 +8,11 @@
 #include "core/error.hpp"
 #include "model/deck/reader.hpp"
 #include "tests/model/deck/sample_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::model_test {
+
+using namespace test::tables;
 namespace {
 
 std::vector<Diagnostic> problems_of(const std::string& text) {
@@ -82,25 +85,16 @@ TEST(Model, ATouchBesideALoadIsFoundOnFewElements) {
 
 // Two members in line are meshed as one: their joint has no unknowns of its own.
 TEST(Model, MonitorsOfAJointBetweenMembersInLineAreThoseOfTheirEnds) {
-  const Model model(deck::read_deck_text(R"toml(
-title = "A beam of two members"
-material.steel = { E = 1.0e4 }
-section.bar = { shape = "rectangle", width = 1.0, height = 0.1 }
-point = { left = [0.0, 0.0], middle = [8.0, 0.0], right = [20.0, 0.0] }
-support = { left = ["x", "z"], right = ["z"] }
-load = [{ at = "middle", force = [0.0, -0.01] }]
-path = { step = 0.1, stop = { lambda = [-1.0, 1.0] } }
-member.a = { from = "left", to = "middle", theory = "euler-bernoulli", material = "steel", section = "bar", elements = 4 }
-member.b = { from = "middle", to = "right", theory = "euler-bernoulli", material = "steel", section = "bar", elements = 6 }
-wall = [{ name = "floor", side = "below", profile = { type = "flat", z = -5.0 } }]
-monitor = [
-  { name = "joint-turns", at = "middle", component = "rotation" },
-  { name = "member-turns", at = "a:1.0", component = "rotation" },
-  { name = "joint-falls", at = "middle", component = "z" },
-  { name = "member-falls", at = "b:0.0", component = "z" },
-]
-)toml",
-                                         "line.toml"));
+  const Model model(deck::read_deck_text(
+      title("A beam of two members") + material("steel", 1.0e4) + rectangle("bar", 1.0, 0.1) +
+          points({{"left", 0.0, 0.0}, {"middle", 8.0, 0.0}, {"right", 20.0, 0.0}}) +
+          supports({{"left", "x z"}, {"right", "z"}}) + force("middle", 0.0, -0.01) +
+          path("step = 0.1; stop = { lambda = [-1.0, 1.0] }") +
+          member("a", "left", "middle", "euler-bernoulli", 4, "", "steel", "bar") +
+          member("b", "middle", "right", "euler-bernoulli", 6, "", "steel", "bar") + flat_wall("floor", "below", -5.0) +
+          monitor("joint-turns", "middle", "rotation") + monitor("member-turns", "a:1.0", "rotation") +
+          monitor("joint-falls", "middle", "z") + monitor("member-falls", "b:0.0", "z"),
+      "line.toml"));
   ASSERT_NE(model.sliding(), nullptr);
   std::string reason;
   Tracer tracer(model.system(), model.start(reason).value(), model.options());
@@ -268,16 +262,11 @@ TEST(Model, ADepthInAWallHasItsUnit) {
 // A deck whose author forgot its bounds, and decks with one bound each.
 TEST(Model, WarnsOfAPathThatNothingEnds) {
   const auto warnings = [](const std::string& path) {
-    const std::string text = R"toml(
-title = "A beam"
-material.steel = { E = 1.0e4 }
-section.bar = { shape = "rectangle", width = 1.0, height = 0.1 }
-point = { left = [0.0, 0.0], right = [20.0, 0.0] }
-support = { left = ["x", "z"], right = ["x", "z"] }
-load = [{ at = "beam:0.5", force = [0.0, -1.0] }]
-member.beam = { from = "left", to = "right", theory = "euler-bernoulli", material = "steel", section = "bar", elements = 4 }
-monitor = [{ name = "w", at = "beam:0.5", component = "z" }]
-)toml" + path;
+    const std::string text = title("A beam") + path + "\n" + material("steel", 1.0e4) + rectangle("bar", 1.0, 0.1) +
+                             points({{"left", 0.0, 0.0}, {"right", 20.0, 0.0}}) +
+                             supports({{"left", "x z"}, {"right", "x z"}}) + force("beam:0.5", 0.0, -1.0) +
+                             member("beam", "left", "right", "euler-bernoulli", 4, "", "steel", "bar") +
+                             monitor("w", "beam:0.5", "z");
     return Model(deck::read_deck_text(text, "beam.toml", {})).warnings();
   };
   for (const char* endless :

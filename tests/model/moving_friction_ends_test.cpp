@@ -25,7 +25,7 @@ std::string bent_strip(double friction, const std::string& stages) {
   };
   replace("clamp = [0.0, 0.8660254037844386]\ntip = [0.5, 0.0]",
           "clamp = [0.0, 0.49888640232521775]\ntip = [0.8188453735832679, 0.0]");
-  replace("to = \"tip\",", "to = \"tip\", via = [0.345729380571248, 0.14490042572575468],");
+  replace("to = \"tip\"", "to = \"tip\"\nvia = [0.345729380571248, 0.14490042572575468]");
   return text + moving;
 }
 
@@ -96,7 +96,7 @@ TEST(MovingFrictionEnds, TipThatTurnsPastUprightLosesTheSame) {
   };
   replace("clamp = [0.0, 0.8660254037844386]\ntip = [0.5, 0.0]",
           "clamp = [0.0, 0.8521838639381606]\ntip = [0.5232424505364857, 0.0]");
-  replace("to = \"tip\",", "to = \"tip\", via = [0.3884674796183538, 0.5039757640576243],");
+  replace("to = \"tip\"", "to = \"tip\"\nvia = [0.3884674796183538, 0.5039757640576243]");
   replace("z = 0.0 }", "z = -0.09538309169853121 }");
   const double at_nodes = total_dissipation(run_of(text).points().back());
   EXPECT_GT(at_nodes, 0.02);

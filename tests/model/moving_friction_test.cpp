@@ -7,46 +7,27 @@
 #include <vector>
 
 #include "tests/model/friction_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 // Friction at contact points that move along members. References by shooting with steps of order 8, checked by
 // collocation.
 namespace arcwall::friction_test {
 
+using namespace test::tables;
+
 namespace {
 
 // Half of a beam, EI = 1 and EA = 1e4, over a round prop of radius 0.2 at 1 from its centre, which goes down by λ.
 std::string bent_beam(double friction, const std::string& stages, int elements = 30) {
-  return fmt::format(R"(
-[material.m]
-E = 10000.0
-[section.s]
-shape = "general"
-A = 1.0
-I = 1e-4
-[point]
-centre = [0.0, 0.0]
-end = [1.5, 0.0]
-[member]
-beam = {{ from = "centre", to = "end", theory = "elastica", material = "m", section = "s", elements = {} }}
-[support]
-centre = ["x", "rotation"]
-[[prescribed]]
-at = "centre"
-z = -1.0
-[contact]
-points = "moving"
-[[wall]]
-name = "prop"
-contact_surface = "axis"
-outline = {{ type = "circle", centre = [1.0, -0.2], radius = 0.2 }}
-friction = {}
-[[monitor]]
-name = "P"
-at = "centre"
-component = "reaction-z"
-)",
-                     elements, friction) +
-         stages;
+  return material("m", 10000.0) + general_section("s", 1.0, 1e-4) + points({{"centre", 0.0, 0.0}, {"end", 1.5, 0.0}}) +
+         member("beam", "centre", "end", "elastica", elements) + supports({{"centre", "x rotation"}}) +
+         prescribed("centre", "z = -1.0") + moving_contact +
+         wall(
+             "prop",
+             fmt::format(
+                 R"(contact_surface = "axis"; outline = {{ type = "circle", centre = [1.0, -0.2], radius = 0.2 }}; friction = {})",
+                 friction)) +
+         monitor("P", "centre", "reaction-z") + stages;
 }
 
 const std::string in_and_back = stage("in", "prescribed.0", 0.001, -1.0, 0.6) +
@@ -87,7 +68,7 @@ TEST(MovingFriction, BeamOverPropsOnItsFace) {
   const auto replace = [&](const std::string& old, const std::string& by) {
     text.replace(text.find(old), old.size(), by);
   };
-  replace("shape = \"general\"\nA = 1.0\nI = 1e-4",
+  replace("shape = \"general\"\nA = 1.0\nI = 0.0001",
           fmt::format("shape = \"rectangle\"\nwidth = {:.17g}\nheight = {:.17g}", 1.0 / height, height));
   replace("contact_surface = \"axis\"\noutline = { type = \"circle\", centre = [1.0, -0.2], radius = 0.2 }",
           fmt::format("side = \"below\"\nprofile = {{ type = \"circle\", centre = [1.0, {:.17g}], radius = 0.2 }}",
@@ -165,46 +146,17 @@ TEST(MovingFriction, StepsAndMethodsDoNotChangeTheEvents) {
 TEST(MovingFriction, RingRollsBetweenRoughPlates) {
   const std::vector<double> forces{0.625382563985, 1.174293567876, 1.666264845603};
   for (const double sideways : {0.0, 0.5}) {
-    const Session session = run_of(fmt::format(R"(
-[material.m]
-E = 1e5
-[section.s]
-shape = "general"
-A = 1.0
-I = 1e-5
-[point]
-west = [-1.0, 0.0]
-east = [1.0, 0.0]
-[member]
-under = {{ from = "west", to = "east", via = [0.0, -1.0], theory = "elastica", material = "m", section = "s", elements = 20 }}
-over = {{ from = "east", to = "west", via = [0.0, 1.0], theory = "elastica", material = "m", section = "s", elements = 20 }}
-[contact]
-points = "moving"
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = {{ type = "flat", z = -1.0 }}
-friction = 0.3
-[[wall]]
-name = "plate"
-side = "above"
-contact_surface = "axis"
-profile = {{ type = "flat", z = 1.0 }}
-motion = {{ x = {}, z = -1.0 }}
-friction = 0.3
-[[monitor]]
-name = "F"
-wall = "plate"
-component = "force-z"
-sign = -1
-[path]
-step = 0.01
-branches = "primary"
-stop = {{ lambda = [-1.0, 0.6] }}
-output_at = {{ lambda = [0.1, 0.2, 0.3] }}
-)",
-                                               sideways));
+    const Session session = run_of(
+        material("m", 1e5) + general_section("s", 1.0, 1e-5) + points({{"west", -1.0, 0.0}, {"east", 1.0, 0.0}}) +
+        member("under", "west", "east", "elastica", 20, "via = [0.0, -1.0]") +
+        member("over", "east", "west", "elastica", 20, "via = [0.0, 1.0]") + moving_contact +
+        flat_wall("floor", "below", -1.0, rough(0.3)) +
+        flat_wall(
+            "plate", "above", 1.0,
+            fmt::format(R"(contact_surface = "axis"; motion = {{ x = {}, z = -1.0 }}; friction = 0.3)", sideways)) +
+        wall_monitor("F", "plate", "force-z", flipped) +
+        path(
+            R"(step = 0.01; branches = "primary"; stop = { lambda = [-1.0, 0.6] }; output_at = { lambda = [0.1, 0.2, 0.3] })"));
     const auto spreads = lambdas(session, EventKind::contact_spreads, 0);
     EXPECT_NEAR(spreads.empty() ? session.points().back().lambda : spreads.front(), 0.564473204895, 1e-6);
     EXPECT_TRUE(lambdas(session, EventKind::contact_slips, 0).empty());
@@ -228,7 +180,7 @@ TEST(MovingFriction, WhatIsNotModelledIsRefused) {
   std::string faces = column(0.2, stage("on", "load.0", 0.05, -1.0, 3.0));
   for (const std::string surface = "contact_surface = \"axis\"\n"; faces.find(surface) != std::string::npos;)
     faces.erase(faces.find(surface), surface.size());
-  const std::string shape = "shape = \"general\"\nA = 1.0\nI = 8.333333333333333e-4";
+  const std::string shape = "shape = \"general\"\nA = 1.0\nI = 0.0008333333333333333";
   faces.replace(faces.find(shape), shape.size(), "shape = \"rectangle\"\nwidth = 10.0\nheight = 0.1");
   const Session ended = run_of(faces);
   EXPECT_EQ(reason(ended), EndReason::not_modelled);

@@ -9,31 +9,22 @@
 #include <vector>
 
 #include "tests/model/traced_session.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::own_pitchfork_test {
+
+using namespace test::tables;
 namespace {
 
 Session traced(const std::string& branches, double step) {
-  return test::traced(R"toml(
-title = "a clamped arch with a load on its crown"
-material.steel = { E = 21000.0, nu = 0.3 }
-section.s = { shape = "rectangle", width = 0.06248188940972283, height = 0.018655954346713677 }
-point = { left = [0.0, 0.0], right = [5.020538616883647, 0.0] }
-support = { left = ["x", "z", "rotation"], right = ["x", "z", "rotation"] }
-load = [{ at = "arch:0.5", force = [0.0, -0.0015829032310130389] }]
-monitor = [
-  { name = "down", at = "arch:0.5", component = "z", sign = -1 },
-  { name = "across", at = "arch:0.5", component = "x" },
-]
-[member.arch]
-from = "left"
-to = "right"
-via = [2.5102693084418237, 0.8933280363771969]
-theory = "euler-bernoulli"
-material = "steel"
-section = "s"
-elements = 20
-)toml",
+  return test::traced(title("a clamped arch with a load on its crown") + material("steel", 21000.0, "nu = 0.3") +
+                          rectangle("s", 0.06248188940972283, 0.018655954346713677) +
+                          points({{"left", 0.0, 0.0}, {"right", 5.020538616883647, 0.0}}) +
+                          supports({{"left", "x z rotation"}, {"right", "x z rotation"}}) +
+                          force("arch:0.5", 0.0, -0.0015829032310130389) + monitor("down", "arch:0.5", "z", flipped) +
+                          monitor("across", "arch:0.5", "x") +
+                          member("arch", "left", "right", "euler-bernoulli", 20,
+                                 "via = [2.5102693084418237, 0.8933280363771969]", "steel"),
                       {"path.branches=\"" + branches + "\"", "path.step=" + std::to_string(step),
                        "path.stop={ lambda = [-3.0, 1.0], down = [-1.7866560727543939, 2.679984109131591] }"});
 }
@@ -61,25 +52,18 @@ TEST(OwnPitchfork, IsToldAndLeftWhateverTheStep) {
 // that it comes back to is opened a little: the path runs round for ever, through the same changes of contact each
 // time. Their layouts have the same unknowns and are none the less others. It was followed for all 5000 points.
 TEST(OwnPitchfork, ALoopThroughChangesOfContactEnds) {
-  const Session run = test::traced(R"toml(
-title = "a clamped arch above a bump"
-material.steel = { E = 21000.0, nu = 0.3 }
-section.s = { shape = "rectangle", width = 4.636952381323354, height = 0.6918670694032281 }
-point = { left = [0.0, 0.0], right = [42.94059583618587, 0.0] }
-support = { left = ["x", "z", "rotation"], right = ["x", "z", "rotation"] }
-load = [{ at = "arch:0.5", force = [0.0, -76.35508947597694] }]
-wall = [{ name = "bump", side = "below", profile = { type = "circle", centre = [21.457883158860305, -3.4363532150608505], radius = 6.3520729898973 } }]
-monitor = [{ name = "down", at = "arch:0.5", component = "z", sign = -1 }]
-path = { step = 0.05, jumps = false, stop = { lambda = [-3.0, 3.0], down = [-14.24570006850356, 21.36855010275534] } }
-[member.arch]
-from = "left"
-to = "right"
-sine = { rise = 7.12285003425178, waves = 1 }
-theory = "euler-bernoulli"
-material = "steel"
-section = "s"
-elements = 36
-)toml");
+  const Session run = test::traced(
+      title("a clamped arch above a bump") + material("steel", 21000.0, "nu = 0.3") +
+      rectangle("s", 4.636952381323354, 0.6918670694032281) +
+      points({{"left", 0.0, 0.0}, {"right", 42.94059583618587, 0.0}}) +
+      supports({{"left", "x z rotation"}, {"right", "x z rotation"}}) + force("arch:0.5", 0.0, -76.35508947597694) +
+      wall(
+          "bump",
+          R"(side = "below"; profile = { type = "circle", centre = [21.457883158860305, -3.4363532150608505], radius = 6.3520729898973 })") +
+      monitor("down", "arch:0.5", "z", flipped) +
+      path("step = 0.05; jumps = false; stop = { lambda = [-3.0, 3.0], down = [-14.24570006850356, 21.36855010275534] "
+           "}") +
+      member("arch", "left", "right", "euler-bernoulli", 36, "sine = { rise = 7.12285003425178, waves = 1 }", "steel"));
   const EndReason reason = run.record().branches.back().end->reason;
   EXPECT_TRUE(reason == EndReason::closed_loop || reason == EndReason::reached_branch);
   EXPECT_LT(run.record().points.size(), 200U);

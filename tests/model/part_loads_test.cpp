@@ -8,8 +8,11 @@
 
 #include "core/text.hpp"
 #include "tests/model/traced_session.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::part_loads_test {
+
+using namespace test::tables;
 namespace {
 
 using test::traced;
@@ -238,23 +241,12 @@ TEST(PartLoads, APartWithoutPressureHandsLoadsOn) {
 // wave, so that each half of the part is a whole wave long at 36 π² EI/L² = P (1 − P/EA); the nodes pressed on the wall
 // would hide that, and the path ends there.
 TEST(PartLoads, APartWithoutPressureBucklesBesideItsLoad) {
-  const Session run = traced(R"toml(
-title = "A pinned column that a load in the middle holds on a wall"
-material.m = { E = 1.0 }
-section.s = { shape = "general", A = 100000.0, I = 2.0 }
-point = { a = [0.0, 0.0], b = [1.0, 0.0] }
-support = { a = ["x", "z"], b = ["z"] }
-load = [{ at = "b", force = [-100.0, 0.0] }, { at = "beam:0.5", force = [0.0, -0.1] }]
-wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = -0.02 } }]
-path = { step = 0.05, stop = { lambda = [-1.0, 10.0] } }
-[member.beam]
-from = "a"
-to = "b"
-theory = "euler-bernoulli"
-material = "m"
-section = "s"
-elements = 40
-)toml");
+  const Session run =
+      traced(title("A pinned column that a load in the middle holds on a wall") + material("m", 1.0) +
+             general_section("s", 100000.0, 2.0) + points({{"a", 0.0, 0.0}, {"b", 1.0, 0.0}}) +
+             supports({{"a", "x z"}, {"b", "z"}}) + force("b", -100.0, 0.0) + force("beam:0.5", 0.0, -0.1) +
+             flat_wall("floor", "below", -0.02, on_axis) + path("step = 0.05; stop = { lambda = [-1.0, 10.0] }") +
+             member("beam", "a", "b", "euler-bernoulli", 40));
   ASSERT_EQ(loads_of(run, EventKind::contact_spreads).size(), 1U);
   const BranchEnd& end = *run.record().branches.back().end;
   EXPECT_EQ(end.reason, EndReason::not_modelled);
@@ -267,32 +259,13 @@ elements = 40
 // the points comes to a load, the body stays on the wall under the load: a third point there bears
 // nearly all of it, on any mesh and with any step.
 TEST(PartLoads, ALoadUnderAnArchIsBorneByTheWall) {
-  const std::string column = R"toml(
-title = "A clamped column under thrust, with a load across"
-material.m = { E = 21000.0 }
-section.s = { shape = "rectangle", width = 1.0, height = 0.37 }
-point = { a = [0.0, 0.0], b = [19.2, 0.0] }
-support = { a = ["x", "z", "rotation"], b = ["z", "rotation"] }
-load = [{ at = "b", force = [-21.0, 0.0] }, { at = "beam:0.4", force = [0.0, -0.19] }]
-wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = -0.43 } }]
-monitor = [
-  { name = "mid", at = "beam:0.5", component = "z" },
-  { name = "floor", wall = "floor", component = "force-z" },
-]
-path = { step = 0.05, stop = { lambda = [-1.0, 4.0] } }
-[member.beam]
-from = "a"
-to = "b"
-theory = "euler-bernoulli"
-material = "m"
-section = "s"
-elements = 40
-imperfection = [
-  { shape = "sine", amplitude = -0.0015, waves = 1 },
-  { shape = "sine", amplitude = -0.00045, waves = 2 },
-  { shape = "sine", amplitude = -0.001, waves = 3 },
-]
-)toml";
+  const std::string column =
+      title("A clamped column under thrust, with a load across") + material("m", 21000.0) + rectangle("s", 1.0, 0.37) +
+      points({{"a", 0.0, 0.0}, {"b", 19.2, 0.0}}) + supports({{"a", "x z rotation"}, {"b", "z rotation"}}) +
+      force("b", -21.0, 0.0) + force("beam:0.4", 0.0, -0.19) + flat_wall("floor", "below", -0.43, on_axis) +
+      monitor("mid", "beam:0.5", "z") + wall_monitor("floor", "floor", "force-z") +
+      path("step = 0.05; stop = { lambda = [-1.0, 4.0] }") +
+      member("beam", "a", "b", "euler-bernoulli", 40, imperfection({{1, -0.0015}, {2, -0.00045}, {3, -0.001}}));
   const auto with_step = [&](const std::string& change) { return traced(column, {change}); };
   const Session first = with_step("path.step=0.05");
   expect_stop(first);

@@ -9,156 +9,48 @@
 #include "continuation/tracer.hpp"
 #include "model/deck/reader.hpp"
 #include "model/model.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::retried_starts_test {
+
+using namespace test::tables;
 namespace {
 
 // Behind a limit point the other wall comes near.
-constexpr const char* behind_a_limit_point = R"toml(
-title = "mixed column, L/h 134, elastica, imperfections [2]"
-
-[material.steel]
-E = 2.1e+04
-nu = 0.3
-
-[section.s]
-shape = "rectangle"
-width = 0.83
-height = 0.21
-
-[member.column]
-from = "left"
-to = "right"
-theory = "elastica"
-material = "steel"
-section = "s"
-elements = 56
-imperfection = [{ shape = "sine", amplitude = -0.19, waves = 2 }]
-
-[point]
-left = [0.0, 0.0]
-right = [29.0, 0.0]
-
-[support]
-left = ["x", "z", "rotation"]
-right = ["z"]
-
-[[load]]
-at = "right"
-force = [-0.35, 0.0]
-
-[[wall]]
-name = "upper0"
-side = "above"
-profile = { type = "flat", z = 1.3 }
-
-[[wall]]
-name = "lower1"
-side = "below"
-profile = { type = "line", z = -1.3, slope = -0.012 }
-
-[[monitor]]
-name = "mid"
-at = "column:0.5"
-component = "z"
-sign = 1
-
-[[monitor]]
-name = "shortening"
-at = "right"
-component = "x"
-sign = -1
-
-[path]
-step = 0.013
-stop = { lambda = [-1.0, 11.0], shortening = [-5.8, 20.0] }
-)toml";
+const std::string behind_a_limit_point =
+    title("mixed column, L/h 134, elastica, imperfections [2]") + material("steel", 2.1e+04, "nu = 0.3") +
+    rectangle("s", 0.83, 0.21) +
+    member("column", "left", "right", "elastica", 56, imperfection({{2, -0.19}}), "steel") +
+    points({{"left", 0.0, 0.0}, {"right", 29.0, 0.0}}) + supports({{"left", "x z rotation"}, {"right", "z"}}) +
+    force("right", -0.35, 0.0) + flat_wall("upper0", "above", 1.3) +
+    wall("lower1", R"(side = "below"; profile = { type = "line", z = -1.3, slope = -0.012 })") +
+    monitor("mid", "column:0.5", "z") + monitor("shortening", "right", "x", flipped) +
+    path("step = 0.013; stop = { lambda = [-1.0, 11.0], shortening = [-5.8, 20.0] }");
 
 // A contact point is inserted where the body is nearly parallel to the wall: the least gap, and all nodes of the mesh
 // with it, move along the member much faster than the body moves.
-constexpr const char* along_the_wall = R"toml(
-title = "pinned column, L/h 41, classic, imperfections [1, 2]"
-
-[material.steel]
-E = 2.1e+04
-nu = 0.3
-
-[section.s]
-shape = "rectangle"
-width = 0.575
-height = 0.366
-
-[member.column]
-from = "left"
-to = "right"
-theory = "euler-bernoulli"
-material = "steel"
-section = "s"
-elements = 68
-imperfection = [{ shape = "sine", amplitude = 0.00139, waves = 1 }, { shape = "sine", amplitude = 0.004, waves = 2 }]
-
-[point]
-left = [0.0, 0.0]
-right = [14.9, 0.0]
-
-[support]
-left = ["x", "z"]
-right = ["z"]
-
-[[load]]
-at = "right"
-force = [-2.21, 0.0]
-
-[[wall]]
-name = "upper0"
-side = "above"
-profile = { type = "circle", centre = [8.82, 12.2], radius = 11.7 }
-
-[[wall]]
-name = "lower1"
-side = "below"
-profile = { type = "circle", centre = [5.82, -37.7], radius = 37.2 }
-
-[[monitor]]
-name = "mid"
-at = "column:0.5"
-component = "z"
-sign = 1
-
-[[monitor]]
-name = "shortening"
-at = "right"
-component = "x"
-sign = -1
-
-[path]
-step = 0.05
-stop = { lambda = [-1.0, 11.3], shortening = [-2.97, 10.4] }
-)toml";
+const std::string along_the_wall =
+    title("pinned column, L/h 41, classic, imperfections [1, 2]") + material("steel", 2.1e+04, "nu = 0.3") +
+    rectangle("s", 0.575, 0.366) +
+    member("column", "left", "right", "euler-bernoulli", 68, imperfection({{1, 0.00139}, {2, 0.004}}), "steel") +
+    points({{"left", 0.0, 0.0}, {"right", 14.9, 0.0}}) + supports({{"left", "x z"}, {"right", "z"}}) +
+    force("right", -2.21, 0.0) +
+    wall("upper0", R"(side = "above"; profile = { type = "circle", centre = [8.82, 12.2], radius = 11.7 })") +
+    wall("lower1", R"(side = "below"; profile = { type = "circle", centre = [5.82, -37.7], radius = 37.2 })") +
+    monitor("mid", "column:0.5", "z") + monitor("shortening", "right", "x", flipped) +
+    path("step = 0.05; stop = { lambda = [-1.0, 11.3], shortening = [-2.97, 10.4] }");
 
 // On its way back from the wall the path passes by the straight column of the second buckling load, within some 1e-5 of
 // it: a step may end on a branch that passes by, where lambda rises.
-constexpr const char* past_the_second_load = R"toml(
-title = "A nearly perfect clamped column on its way back from a wall"
-material.steel = { E = 2.1e4 }
-section.s = { shape = "rectangle", width = 0.22, height = 0.048 }
-point = { left = [0.0, 0.0], right = [1.2, 0.0] }
-support = { left = ["x", "z", "rotation"], right = ["z", "rotation"] }
-load = [{ at = "right", force = [-1.2, 0.0] }]
-wall = [{ name = "lower", side = "below", profile = { type = "flat", z = -0.042 } }]
-monitor = [{ name = "mid", at = "column:0.5", component = "z" }]
-path = { step = 0.05, stop = { mid = [-1.0, 0.03], lambda = [-1.0, 11.0] } }
-[member.column]
-from = "left"
-to = "right"
-theory = "elastica"
-material = "steel"
-section = "s"
-elements = 12
-imperfection = [{ shape = "sine", amplitude = -6.4e-5, waves = 2 }, { shape = "sine", amplitude = 8.8e-5, waves = 3 }]
-)toml";
+const std::string past_the_second_load =
+    title("A nearly perfect clamped column on its way back from a wall") + material("steel", 2.1e4) +
+    rectangle("s", 0.22, 0.048) + points({{"left", 0.0, 0.0}, {"right", 1.2, 0.0}}) +
+    supports({{"left", "x z rotation"}, {"right", "z rotation"}}) + force("right", -1.2, 0.0) +
+    flat_wall("lower", "below", -0.042) + monitor("mid", "column:0.5", "z") +
+    path("step = 0.05; stop = { mid = [-1.0, 0.03], lambda = [-1.0, 11.0] }") +
+    member("column", "left", "right", "elastica", 12, imperfection({{2, -6.4e-5}, {3, 8.8e-5}}), "steel");
 
-std::vector<EventKind> kinds_of(const char* deck, const std::vector<std::string>& assignments) {
+std::vector<EventKind> kinds_of(const std::string& deck, const std::vector<std::string>& assignments) {
   const Model model(deck::read_deck_text(deck, "deck.toml", assignments));
   std::string reason;
   Tracer tracer(model.system(), model.start(reason).value(), model.options());

@@ -14,8 +14,11 @@
 #include "answers/sessions.hpp"
 #include "core/root_find.hpp"
 #include "core/types.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::slender_structures_test {
+
+using namespace test::tables;
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -162,27 +165,14 @@ INSTANTIATE_TEST_SUITE_P(All, SlenderStructure, testing::ValuesIn(structures()))
 // EA L²/EI of 3e20: several eigenvalues are zero to the last digit beside contacts that slide, and the path ends early.
 // It ends in a sentence all the same: modes of such a place have all unknowns, the places of the contacts among them.
 TEST(SlenderStructures, EndsWhereNothingButRoundOffIsLeft) {
-  Session run = make_session({.deck = "deck.toml", .deck_text = R"toml(
-title = "a column of 5e8 in a channel"
-material.steel = { E = 21000.0 }
-section.square = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { left = [0.0, 0.0], right = [540343167.201976, 0.0] }
-support = { left = ["x", "z"], right = ["z"] }
-load = [{ at = "right", force = [-1.0, 0.0] }]
-wall = [
-  { name = "upper", side = "above", profile = { type = "flat", z = 0.2 } },
-  { name = "lower", side = "below", profile = { type = "flat", z = -0.2 } },
-]
-path = { step = 0.05, jumps = false, stop = { lambda = [-1.0, 9.0] } }
-[member.column]
-from = "left"
-to = "right"
-theory = "euler-bernoulli"
-material = "steel"
-section = "square"
-elements = 4
-imperfection = [{ shape = "sine", amplitude = 0.002, waves = 1 }, { shape = "sine", amplitude = 3e-4, waves = 3 }]
-)toml"});
+  Session run = make_session(
+      {.deck = "deck.toml",
+       .deck_text = title("a column of 5e8 in a channel") + material("steel", 21000.0) + rectangle("square", 0.1, 0.1) +
+                    points({{"left", 0.0, 0.0}, {"right", 540343167.201976, 0.0}}) +
+                    supports({{"left", "x z"}, {"right", "z"}}) + force("right", -1.0, 0.0) + channel(0.2) +
+                    path("step = 0.05; jumps = false; stop = { lambda = [-1.0, 9.0] }") +
+                    member("column", "left", "right", "euler-bernoulli", 4, imperfection({{1, 0.002}, {3, 3e-4}}),
+                           "steel", "square")});
   ASSERT_TRUE(run.begin()) << run.problem();
   while (run.next() != nullptr) {
   }

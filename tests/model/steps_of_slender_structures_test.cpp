@@ -11,29 +11,19 @@
 #include "core/root_find.hpp"
 #include "core/types.hpp"
 #include "tests/model/traced_session.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::steps_of_slender_structures_test {
 
+using namespace test::tables;
+
 namespace {
 
-constexpr const char* pushed_strip = R"toml(
-title = "A strip with L/h = 1000, pushed together"
-material.m = { E = 2.0e11 }
-section.s = { shape = "rectangle", width = 0.02, height = 0.001 }
-point = { a = [0.0, 0.0], b = [1.0, 0.0] }
-support = { a = ["x", "z"], b = ["z"] }
-path = { stop.lambda = [-1.0e-6, 0.8] }
-prescribed = [{ at = "b", x = -1.0 }]
-monitor = [{ name = "mid", at = "s:0.5", component = "z" }]
-[member.s]
-from = "a"
-to = "b"
-theory = "elastica"
-material = "m"
-section = "s"
-elements = 20
-imperfection = { shape = "sine", amplitude = 1.0e-4, waves = 1 }
-)toml";
+const std::string pushed_strip = title("A strip with L/h = 1000, pushed together") + material("m", 2.0e11) +
+                                 rectangle("s", 0.02, 0.001) + points({{"a", 0.0, 0.0}, {"b", 1.0, 0.0}}) +
+                                 supports({{"a", "x z"}, {"b", "z"}}) + path("stop = { lambda = [-1.0e-6, 0.8] }") +
+                                 prescribed("b", "x = -1.0") + monitor("mid", "s:0.5", "z") +
+                                 member("s", "a", "b", "elastica", 20, imperfection({{1, 1.0e-4}}));
 
 constexpr const char* hanging_rope = R"toml(
 title = "A rope of 1000 m that hangs by its weight, its ends then brought together by 50 m"

@@ -12,8 +12,11 @@
 #include "core/text.hpp"
 #include "model/deck/reader.hpp"
 #include "tests/model/traced_session.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::symmetry_planes_test {
+
+using namespace test::tables;
 namespace {
 
 using Kinds = std::vector<EventKind>;
@@ -329,36 +332,17 @@ member.m = { from = "mid", to = "right", theory = "elastica", elements = 4, mate
 }
 
 TEST(SymmetryPlane, MayHaveBothHalves) {
-  const Session run = test::traced(R"toml(
-title = "Flat wiper blade pressed on a windscreen"
-material.steel = { E = 2.06e5 }
-section.spline = { shape = "rectangle", width = 10.0, height = 0.9 }
-point = { left = [-250.0, 0.0], mid = [0.0, 20.0], right = [250.0, 0.0] }
-support = { mid = "symmetry-x" }
-[member]
-left = { from = "left", to = "mid", via = [-125.0, 15.0], theory = "elastica", material = "steel", section = "spline", elements = 20 }
-right = { from = "mid", to = "right", via = [125.0, 15.0], theory = "elastica", material = "steel", section = "spline", elements = 20 }
-[[wall]]
-name = "screen"
-side = "below"
-contact_surface = "axis"
-profile = { type = "circle", centre = [0.0, -3010.5], radius = 3000.0 }
-[[load]]
-at = "mid"
-force = [0.0, -1.0]
-[path]
-step = 0.1
-stop = { lambda = [-0.1, 20.0] }
-[[monitor]]
-name = "down"
-at = "mid"
-component = "z"
-sign = -1
-[[monitor]]
-name = "push"
-wall = "screen"
-component = "force-z"
-)toml");
+  const Session run = test::traced(
+      title("Flat wiper blade pressed on a windscreen") + material("steel", 2.06e5) + rectangle("spline", 10.0, 0.9) +
+      points({{"left", -250.0, 0.0}, {"mid", 0.0, 20.0}, {"right", 250.0, 0.0}}) + R"([support]
+mid = "symmetry-x"
+)" + member("left", "left", "mid", "elastica", 20, "via = [-125.0, 15.0]", "steel", "spline") +
+      member("right", "mid", "right", "elastica", 20, "via = [125.0, 15.0]", "steel", "spline") +
+      wall(
+          "screen",
+          R"(side = "below"; contact_surface = "axis"; profile = { type = "circle", centre = [0.0, -3010.5], radius = 3000.0 })") +
+      force("mid", 0.0, -1.0) + path("step = 0.1; stop = { lambda = [-0.1, 20.0] }") +
+      monitor("down", "mid", "z", flipped) + wall_monitor("push", "screen", "force-z"));
   const Changes changes = changes_of(run);
   EXPECT_EQ(changes.kinds, (Kinds{closes, closes}));
   const RecordEvent& end = changes.events.back();

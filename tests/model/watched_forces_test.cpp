@@ -7,29 +7,21 @@
 #include <vector>
 
 #include "tests/model/traced_session.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::watched_forces_test {
 
+using namespace test::tables;
+
 namespace {
 
-constexpr const char* clip = R"toml(
-title = "One arm of a clip that a shaft pushes aside"
-material.spring = { E = 2.06e5 }
-section.clip = { shape = "rectangle", width = 0.9, height = 1.4 }
-point = { back = [-9.5, 0.0], up = [6.106482, 7.277422] }
-support.back = ["x", "z", "rotation"]
-wall = [{ name = "shaft", outline = { type = "circle", centre = [20.0, 0.0], radius = 8.6 }, motion = { x = -1.0 } }]
-monitor = [{ name = "push", wall = "shaft", component = "force-x", sign = -1 }]
-path = { step = 0.1, watch = ["push"], stop.lambda = [-0.5, 18.0] }
-[member.upper]
-from = "back"
-to = "up"
-via = [-4.014873, 8.609924]
-theory = "elastica"
-material = "spring"
-section = "clip"
-elements = 20
-)toml";
+const std::string clip =
+    title("One arm of a clip that a shaft pushes aside") + material("spring", 2.06e5) + rectangle("clip", 0.9, 1.4) +
+    points({{"back", -9.5, 0.0}, {"up", 6.106482, 7.277422}}) + supports({{"back", "x z rotation"}}) +
+    wall("shaft", R"(outline = { type = "circle", centre = [20.0, 0.0], radius = 8.6 }; motion = { x = -1.0 })") +
+    wall_monitor("push", "shaft", "force-x", flipped) +
+    path(R"(step = 0.1; watch = ["push"]; stop = { lambda = [-0.5, 18.0] })") +
+    member("upper", "back", "up", "elastica", 20, "via = [-4.014873, 8.609924]", "spring", "clip");
 
 double greatest_push(const Record& record) {
   double greatest = 0.0;
@@ -55,31 +47,15 @@ TEST(WatchedForce, HasItsMaximumRightBehindATouchWhateverTheStepSlow) {
 
 namespace {
 
-constexpr const char* bent_over_a_prop = R"toml(
-title = "Half of a stiff beam bent over round props, held by contact alone"
-material.m = { E = 1.0, nu = 0.3 }
-section.s = { shape = "general", A = 1e5, I = 1.0 }
-point = { M = [0.0, 0.0], E = [1.2, 0.0] }
-support.M = ["x", "rotation"]
-prescribed = [{ at = "M", z = -1.0 }]
-monitor = [{ name = "F", at = "M", component = "reaction-z", sign = -1 },
-           { name = "N", at = "beam:0.25", component = "axial-force" },
-           { name = "B", at = "beam:0.25", component = "moment" },
-           { name = "push", wall = "prop", component = "force-z" },
-           { name = "turn", wall = "prop", component = "moment" }]
-path = { step = 0.01, watch = ["F", "N", "B", "push", "turn"], stop.lambda = [-0.01, 0.8] }
-[[wall]]
-name = "prop"
-contact_surface = "axis"
-outline = { type = "circle", centre = [0.65, -0.08], radius = 0.08 }
-[member.beam]
-from = "M"
-to = "E"
-theory = "elastica"
-material = "m"
-section = "s"
-elements = 40
-)toml";
+const std::string bent_over_a_prop =
+    title("Half of a stiff beam bent over round props, held by contact alone") + material("m", 1.0, "nu = 0.3") +
+    general_section("s", 1e5, 1.0) + points({{"M", 0.0, 0.0}, {"E", 1.2, 0.0}}) + supports({{"M", "x rotation"}}) +
+    prescribed("M", "z = -1.0") + monitor("F", "M", "reaction-z", flipped) + monitor("N", "beam:0.25", "axial-force") +
+    monitor("B", "beam:0.25", "moment") + wall_monitor("push", "prop", "force-z") +
+    wall_monitor("turn", "prop", "moment") +
+    path(R"(step = 0.01; watch = ["F", "N", "B", "push", "turn"]; stop = { lambda = [-0.01, 0.8] })") +
+    wall("prop", R"(contact_surface = "axis"; outline = { type = "circle", centre = [0.65, -0.08], radius = 0.08 })") +
+    member("beam", "M", "E", "elastica", 40);
 
 struct Maximum {
   double lambda, value;
@@ -121,24 +97,13 @@ TEST(WatchedForce, OfAStiffMemberHasItsMaximumWhereItIsOnAnyMeshAndStepSlow) {
 
 // A force that is zero by symmetry has round-off for its rate, of any sign.
 TEST(WatchedForce, ThatIsZeroBySymmetryNeverTurns) {
-  const char* const column = R"toml(
-title = "A perfect column past three buckling loads"
-material.m = { E = 2.1e5 }
-section.s = { shape = "rectangle", width = 10.0, height = 10.0 }
-point = { A = [0.0, 0.0], B = [1000.0, 0.0] }
-support = { A = ["x", "z", "rotation"], B = ["z"] }
-load = [{ at = "B", force = [-1000.0, 0.0] }]
-monitor = [{ name = "left", at = "A", component = "reaction-z" }, { name = "clamp", at = "A", component = "reaction-moment" },
-           { name = "bent", at = "column:0.5", component = "moment" }]
-path = { step = 1.0, watch = ["left", "clamp", "bent"], branches = "primary", stop.lambda = [-1.0, 21.0] }
-[member.column]
-from = "A"
-to = "B"
-theory = "elastica"
-material = "m"
-section = "s"
-elements = 40
-)toml";
+  const std::string column =
+      title("A perfect column past three buckling loads") + material("m", 2.1e5) + rectangle("s", 10.0, 10.0) +
+      points({{"A", 0.0, 0.0}, {"B", 1000.0, 0.0}}) + supports({{"A", "x z rotation"}, {"B", "z"}}) +
+      force("B", -1000.0, 0.0) + monitor("left", "A", "reaction-z") + monitor("clamp", "A", "reaction-moment") +
+      monitor("bent", "column:0.5", "moment") +
+      path(R"(step = 1.0; watch = ["left", "clamp", "bent"]; branches = "primary"; stop = { lambda = [-1.0, 21.0] })") +
+      member("column", "A", "B", "elastica", 40);
   for (const char* const step : {"0.02", "1.0"}) {
     const Session run = test::traced(column, {std::string("path.max_step=") + step});
     EXPECT_TRUE(test::events_of(run.record(), EventKind::turning_point).empty()) << step;

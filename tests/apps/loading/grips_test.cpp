@@ -14,8 +14,11 @@
 #include "model/deck/writer.hpp"
 #include "tests/apps/loading/loading_decks.hpp"
 #include "tests/model/friction_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::grips_test {
+
+using namespace test::tables;
 
 using loading_test::expect_confirmed;
 using test::TracedDeck;
@@ -55,10 +58,6 @@ std::string stage(const std::string& name, const std::string& drives, double ste
   return fmt::format(
       "[[stage]]\nname = \"{}\"\ndrives = [{}]\nstep = {:.17g}\nstop = {{ lambda = [{:.17g}, {:.17g}] }}\n", name,
       drives, step, low, high);
-}
-
-std::string monitor(const std::string& name, const std::string& at, const std::string& component) {
-  return fmt::format("[[monitor]]\nname = \"{}\"\nat = \"{}\"\ncomponent = \"{}\"\n", name, at, component);
 }
 
 std::string floor_at(double z, const std::string& more = "") {
@@ -222,30 +221,12 @@ TEST(Grip, MovesOnFromWhereThePointWas) {
 // A strip of two members that is pressed on a floor, and then gripped at its middle and drawn up: the same as one whose
 // middle is drawn from its place at rest. Its end lies on the floor in a point and, pressed harder, along a stretch.
 TEST(Grip, OfAStripOnAFloorIsThatOfAMovementFromRest) {
-  const auto strip = [](const std::string& more, const std::string& points) {
-    return R"(
-title = "Strip pressed on a floor"
-[material.m]
-E = 1.0
-[section.s]
-shape = "general"
-A = 1e5
-I = 1.0
-[point]
-a = [0.0, 0.0]
-mid = [0.5, 0.0]
-b = [1.0, 0.0]
-[member]
-first = { from = "a", to = "mid", theory = "elastica", material = "m", section = "s", elements = 10 }
-second = { from = "mid", to = "b", theory = "elastica", material = "m", section = "s", elements = 10 }
-[support]
-a = ["x", "z", "rotation"]
-[[load]]
-on = "second"
-distributed = [0.0, -30.0]
-)" + floor_at(-0.1, points) +
-           monitor("z", "mid", "z") + monitor("turn", "mid", "rotation") + monitor("tip", "b", "x") +
-           monitor("R", "mid", "reaction-z") +
+  const auto strip = [](const std::string& more, const std::string& contact) {
+    return title("Strip pressed on a floor") + material("m", 1.0) + general_section("s", 1e5, 1.0) +
+           points({{"a", 0.0, 0.0}, {"mid", 0.5, 0.0}, {"b", 1.0, 0.0}}) + member("first", "a", "mid", "elastica", 10) +
+           member("second", "mid", "b", "elastica", 10) + supports({{"a", "x z rotation"}}) +
+           distributed("second", 0.0, -30.0) + floor_at(-0.1, contact) + monitor("z", "mid", "z") +
+           monitor("turn", "mid", "rotation") + monitor("tip", "b", "x") + monitor("R", "mid", "reaction-z") +
            "[[monitor]]\nname = \"wall\"\nwall = \"floor\"\ncomponent = \"force-z\"\n" + more;
   };
   for (const std::string points : {"", "[contact]\npoints = \"nodes\"\n"}) {
@@ -301,37 +282,14 @@ TEST(Grip, OfATipOnAFloorBearsWhatTheFloorBore) {
 // grip draws it back through states that no dead load could hold. Beyond its limit point the count under the force that
 // would hold it is one more.
 TEST(Grip, HoldsWhatADeadLoadCannot) {
-  const std::string deck = R"(
-title = "Two bars"
-[material.m]
-E = 1e4
-[section.s]
-shape = "general"
-A = 1.0
-I = 1.0
-[point]
-left = [-1.0, 0.0]
-top = [0.0, 0.1]
-right = [1.0, 0.0]
-[member]
-one = { from = "left", to = "top", theory = "truss", strain = "green", material = "m", section = "s", elements = 1 }
-two = { from = "top", to = "right", theory = "truss", strain = "green", material = "m", section = "s", elements = 1 }
-[support]
-left = ["x", "z"]
-right = ["x", "z"]
-[[load]]
-at = "top"
-force = [0.0, -1.0]
-[[prescribed]]
-at = "top"
-z = 1.0
-from = "stage"
-[path]
-branches = "jump"
-)" + monitor("w", "top", "z") +
-                           monitor("R", "top", "reaction-z") + stage("load", "\"load.0\"", 0.05, -1.0, 5.0) +
-                           stage("draw", "\"prescribed.0\"", 0.005, -1.0, 0.15) +
-                           "output_at = { lambda = [0.09, 0.11, 0.12, 0.13] }\n";
+  const std::string deck =
+      title("Two bars") + material("m", 1e4) + general_section("s", 1.0, 1.0) +
+      points({{"left", -1.0, 0.0}, {"top", 0.0, 0.1}, {"right", 1.0, 0.0}}) +
+      member("one", "left", "top", "truss", 1, R"(strain = "green")") +
+      member("two", "top", "right", "truss", 1, R"(strain = "green")") + supports({{"left", "x z"}, {"right", "x z"}}) +
+      force("top", 0.0, -1.0) + prescribed("top", R"(z = 1.0; from = "stage")") + path(R"(branches = "jump")") +
+      monitor("w", "top", "z") + monitor("R", "top", "reaction-z") + stage("load", "\"load.0\"", 0.05, -1.0, 5.0) +
+      stage("draw", "\"prescribed.0\"", 0.005, -1.0, 0.15) + "output_at = { lambda = [0.09, 0.11, 0.12, 0.13] }\n";
   const TracedDeck run(deck);
   const RecordPoint &loaded = last_of(run, "load"), &drawn = last_of(run, "draw");
   ASSERT_EQ(events_of(run, EventKind::limit_point).size(), 1u);
@@ -359,45 +317,14 @@ branches = "jump"
 // A strip that sticks to a rough floor by a constant weight, gripped at its end and drawn: it slips when the grip bears
 // μ times the weight.
 TEST(Grip, DrawsABlockThatSticks) {
-  const std::string deck = R"(
-title = "Block"
-[material.m]
-E = 210.0
-[section.s]
-shape = "general"
-A = 1.0
-I = 1.0
-[point]
-A = [0.0, 0.0]
-B = [10.0, 0.0]
-[member]
-bar = { from = "A", to = "B", theory = "truss", strain = "engineering", material = "m", section = "s", elements = 1 }
-[support]
-A = ["z"]
-[[spring]]
-at = "A"
-stiffness = { x = 1.0 }
-[[load]]
-at = "B"
-force = [0.0, -1.0]
-constant = true
-[[load]]
-at = "A"
-force = [1.0, 0.0]
-[[prescribed]]
-at = "A"
-x = 1.0
-from = "stage"
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = { type = "flat", z = 0.0 }
-friction = 0.3
-)" + monitor("A", "A", "x") +
-                           monitor("B", "B", "x") + monitor("R", "A", "reaction-x") +
-                           stage("push", "\"load.1\"", 0.02, -1.0, 0.2) +
-                           stage("draw", "\"prescribed.0\"", 0.001, -1.0, 0.03);
+  const std::string deck =
+      title("Block") + material("m", 210.0) + general_section("s", 1.0, 1.0) +
+      points({{"A", 0.0, 0.0}, {"B", 10.0, 0.0}}) + bar("bar", "A", "B") + supports({{"A", "z"}}) +
+      table("[[spring]]", R"(at = "A"; stiffness = { x = 1.0 })") + force("B", 0.0, -1.0, constant) +
+      force("A", 1.0, 0.0) + prescribed("A", R"(x = 1.0; from = "stage")") +
+      flat_wall("floor", "below", 0.0, rough(0.3)) + monitor("A", "A", "x") + monitor("B", "B", "x") +
+      monitor("R", "A", "reaction-x") + stage("push", "\"load.1\"", 0.02, -1.0, 0.2) +
+      stage("draw", "\"prescribed.0\"", 0.001, -1.0, 0.03);
   const TracedDeck run(deck);
   const RecordPoint &pushed = last_of(run, "push"), &drawn = last_of(run, "draw");
   const double first = 0.2 / 22.0;  // by the load 0.2 against the spring and the bar, whose other end sticks

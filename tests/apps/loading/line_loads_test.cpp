@@ -7,8 +7,11 @@
 
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/expect_whole.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::line_loads_test {
+
+using namespace test::tables;
 namespace {
 
 using test::TracedDeck;
@@ -146,22 +149,12 @@ member.beam = {{ from = "a", to = "b", via = [0.0, 2.0], theory = "{}", elements
 // A strip lies on a floor, heavier towards its clamp: q₀ + q₁ s from its free end, which a force F lifts. It leaves the
 // floor where its moment vanishes, F = q₀ l/2 + q₁ l²/6, and its end rises by w = F l³/3 − q₀ l⁴/8 − q₁ l⁵/30 over EI.
 TEST(LineLoads, ThatVaryHoldAStripOnAFloorAsByHand) {
-  const TracedDeck run(R"toml(
-title = "A strip that grows heavier"
-material.m = { E = 1e4 }
-section.s = { shape = "general", A = 1e2, I = 1e2 }
-point = { free = [0.0, 0.0], clamp = [10.0, 0.0] }
-support = { clamp = ["x", "z", "rotation"] }
-load = [{ on = "strip", distributed = [0.0, -0.02], distributed_to = [0.0, -0.06], constant = true }, { at = "free", force = [0.0, 0.1] }]
-path = { step = 0.2, stop = { lambda = [-0.1, 1.0] } }
-monitor = [{ name = "w", at = "free", component = "z" }]
-member.strip = { from = "free", to = "clamp", theory = "euler-bernoulli", elements = 20, material = "m", section = "s" }
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = { type = "flat", z = 0.0 }
-)toml");
+  const TracedDeck run(title("A strip that grows heavier") + material("m", 1e4) + general_section("s", 1e2, 1e2) +
+                       points({{"free", 0.0, 0.0}, {"clamp", 10.0, 0.0}}) + supports({{"clamp", "x z rotation"}}) +
+                       distributed("strip", 0.0, -0.02, "distributed_to = [0.0, -0.06]; constant = true") +
+                       force("free", 0.0, 0.1) + path("step = 0.2; stop = { lambda = [-0.1, 1.0] }") +
+                       monitor("w", "free", "z") + member("strip", "free", "clamp", "euler-bernoulli", 20) +
+                       flat_wall("floor", "below", 0.0, on_axis));
   constexpr double F = 0.1, q0 = 0.02, q1 = 0.004, EI = 1e6;
   double low = 0.0, high = 10.0;
   while (high - low > 1e-14) {
@@ -220,22 +213,12 @@ profile = {{ type = "flat", z = -1e-3 }}
 // A strip on a floor whose weight falls to nothing at the end that a force lifts lies there from the start: q₁ s from
 // its free end bends what is off by F = q₁ l²/6, and its end rises by w = F l³/3 − q₁ l⁵/30 over EI.
 TEST(LineLoads, ThatFallToNothingHoldAStripOnAFloor) {
-  const TracedDeck run(R"toml(
-title = "A strip that weighs nothing at its end"
-material.m = { E = 1e4 }
-section.s = { shape = "general", A = 1e2, I = 1e2 }
-point = { free = [0.0, 0.0], clamp = [10.0, 0.0] }
-support = { clamp = ["x", "z", "rotation"] }
-load = [{ on = "strip", distributed = [0.0, 0.0], distributed_to = [0.0, -0.06], constant = true }, { at = "free", force = [0.0, 0.02] }]
-path = { step = 0.2, stop = { lambda = [-0.1, 1.0] } }
-monitor = [{ name = "w", at = "free", component = "z" }]
-member.strip = { from = "free", to = "clamp", theory = "euler-bernoulli", elements = 20, material = "m", section = "s" }
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = { type = "flat", z = 0.0 }
-)toml");
+  const TracedDeck run(
+      title("A strip that weighs nothing at its end") + material("m", 1e4) + general_section("s", 1e2, 1e2) +
+      points({{"free", 0.0, 0.0}, {"clamp", 10.0, 0.0}}) + supports({{"clamp", "x z rotation"}}) +
+      distributed("strip", 0.0, 0.0, "distributed_to = [0.0, -0.06]; constant = true") + force("free", 0.0, 0.02) +
+      path("step = 0.2; stop = { lambda = [-0.1, 1.0] }") + monitor("w", "free", "z") +
+      member("strip", "free", "clamp", "euler-bernoulli", 20) + flat_wall("floor", "below", 0.0, on_axis));
   constexpr double F = 0.02, q1 = 0.006, EI = 1e6;
   const double l = std::sqrt(6.0 * F / q1);
   const double w = (F * std::pow(l, 3) / 3.0 - q1 * std::pow(l, 5) / 30.0) / EI;

@@ -7,8 +7,11 @@
 #include "apps/output/exit_status.hpp"
 #include "core/error.hpp"
 #include "tests/apps/loading/loading_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::loading_test {
+
+using namespace test::tables;
 
 namespace {
 
@@ -50,36 +53,15 @@ component = "z"
 }
 
 // A hook that a force pushes along x to a catch, and nothing else holds in that direction [mm, N].
-const std::string pushed_hook = R"(
-title = "Hook"
-material.pa = { E = 2400.0 }
-section.hook = { shape = "rectangle", width = 5.0, height = 1.5 }
-point = { base = [0.0, 0.0], tip = [20.0, 0.0], nose = [20.0, -1.5] }
-support = { base = ["z", "rotation"] }
-[member]
-beam = { from = "base", to = "tip", theory = "elastica", material = "pa", section = "hook", elements = 8 }
-nose = { from = "tip", to = "nose", theory = "elastica", material = "pa", section = "hook", elements = 2 }
-[[load]]
-at = "base"
-force = [1.0, 0.0]
-[[wall]]
-name = "catch"
-side = "below"
-contact_surface = "axis"
-members = ["nose"]
-profile = { type = "parabola", apex = [25.0, -0.5], curvature = -0.2 }
-[path]
-step = 0.01
-[[monitor]]
-name = "way"
-at = "base"
-component = "x"
-[[monitor]]
-name = "lift"
-at = "tip"
-component = "z"
-[path.stop]
-)";
+const std::string pushed_hook =
+    title("Hook") + material("pa", 2400.0) + rectangle("hook", 5.0, 1.5) +
+    points({{"base", 0.0, 0.0}, {"tip", 20.0, 0.0}, {"nose", 20.0, -1.5}}) + supports({{"base", "z rotation"}}) +
+    member("beam", "base", "tip", "elastica", 8, "", "pa", "hook") +
+    member("nose", "tip", "nose", "elastica", 2, "", "pa", "hook") + force("base", 1.0, 0.0) +
+    wall(
+        "catch",
+        R"(side = "below"; contact_surface = "axis"; members = ["nose"]; profile = { type = "parabola", apex = [25.0, -0.5], curvature = -0.2 })") +
+    path("step = 0.01") + monitor("way", "base", "x") + monitor("lift", "tip", "z") + "[path.stop]\n";
 
 double monitored(const RecordPoint& point, std::size_t which) { return point.monitors[which]; }
 
@@ -101,20 +83,12 @@ TEST(LooseBodies, AreBentOverProps) {
 // where P = 2 k u tan α. What keeps it from sliding away bears none of that, however much stiffer it is than the tie.
 TEST(LooseBodies, AreDeformedAsIfNothingHeldThem) {
   constexpr double k = 20.0, P = 5.0;
-  const TracedDeck spread(R"(
-title = "A-frame with a soft tie"
-units = { length = "m", force = "N" }
-material.m = { E = 2.1e11 }
-section.s = { shape = "general", A = 0.01, I = 1e-6 }
-point = { a = [-1.0, 0.0], t = [0.0, 1.0], b = [1.0, 0.0] }
-path = { step = 1.0, stop = { lambda = [-1.0, 5.0] } }
-member.l = { from = "a", to = "t", theory = "truss", strain = "engineering", material = "m", section = "s", elements = 1 }
-member.r = { from = "t", to = "b", theory = "truss", strain = "engineering", material = "m", section = "s", elements = 1 }
-load = [{ at = "t", force = [0.0, -1.0] }]
-spring = [{ between = ["a", "b"], stiffness = { x = 20.0 } }]
-wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = 0.0 } }]
-monitor = [{ name = "a", at = "a", component = "x" }, { name = "b", at = "b", component = "x" }]
-)");
+  const TracedDeck spread(
+      title("A-frame with a soft tie") + units("m", "N") + material("m", 2.1e11) + general_section("s", 0.01, 1e-6) +
+      points({{"a", -1.0, 0.0}, {"t", 0.0, 1.0}, {"b", 1.0, 0.0}}) +
+      path("step = 1.0; stop = { lambda = [-1.0, 5.0] }") + bar("l", "a", "t") + bar("r", "t", "b") +
+      force("t", 0.0, -1.0) + table("[[spring]]", R"(between = ["a", "b"]; stiffness = { x = 20.0 })") +
+      flat_wall("floor", "below", 0.0, on_axis) + monitor("a", "a", "x") + monitor("b", "b", "x"));
   const RecordPoint& last = spread.record().points.back();
   ASSERT_EQ(last.lambda, P);
   const double u = monitored(last, 1) - monitored(last, 0), half = 0.5 * (2.0 + u);
@@ -126,14 +100,8 @@ monitor = [{ name = "a", at = "a", component = "x" }, { name = "b", at = "b", co
 // props with ends that overhang, and the nose meets it there.
 TEST(LooseBodies, FallOntoWhatHoldsThem) {
   const double q = 1e-4, EI = 1000.0 * 8.0 / 3.0, l = 100.0, a = 10.0;
-  const TracedDeck rests(three_point_bending(-5.5, 6.0, R"(
-[[load]]
-on = "beam"
-distributed = [0.0, -0.0001]
-constant = true
-[path.stop]
-lambda = [-0.1, 2.0]
-)"));
+  const TracedDeck rests(three_point_bending(
+      -5.5, 6.0, distributed("beam", 0.0, -0.0001, constant) + table("[path.stop]", "lambda = [-0.1, 2.0]")));
   const double sag = q * l * l * (5.0 * l * l - 24.0 * a * a) / (384.0 * EI);
   EXPECT_NEAR(monitored(rests.record().points.front(), 1), -0.5 - sag, 1e-3 * sag);
   const auto meets = events_of(rests, EventKind::contact_closes);
@@ -177,36 +145,14 @@ TEST(LooseBodies, AreStillRefusedWithoutAWall) {
 // A ring of radius 30 between plates: F = (EI/R³)/(π/4 − 2/π) times the way while that is small. It may roll and slide,
 // and does not.
 TEST(LooseBodies, AreSqueezedBetweenPlates) {
-  const TracedDeck ring(R"(
-title = "Ring"
-material.m = { E = 5.0 }
-section.s = { shape = "rectangle", width = 20.0, height = 2.0 }
-point = { west = [-30.0, 0.0], east = [30.0, 0.0] }
-[member]
-under = { from = "west", to = "east", via = [0.0, -30.0], theory = "elastica", material = "m", section = "s", elements = 24 }
-over = { from = "east", to = "west", via = [0.0, 30.0], theory = "elastica", material = "m", section = "s", elements = 24 }
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = { type = "flat", z = -30.0 }
-[[wall]]
-name = "plate"
-side = "above"
-contact_surface = "axis"
-profile = { type = "flat", z = 30.0 }
-motion = { z = -1.0 }
-[path]
-step = 0.02
-branches = "primary"
-[path.stop]
-lambda = [-0.1, 0.1]
-[[monitor]]
-name = "force"
-wall = "plate"
-component = "force-z"
-sign = -1
-)");
+  const TracedDeck ring(title("Ring") + material("m", 5.0) + rectangle("s", 20.0, 2.0) +
+                        points({{"west", -30.0, 0.0}, {"east", 30.0, 0.0}}) +
+                        member("under", "west", "east", "elastica", 24, "via = [0.0, -30.0]") +
+                        member("over", "east", "west", "elastica", 24, "via = [0.0, 30.0]") +
+                        flat_wall("floor", "below", -30.0, on_axis) +
+                        flat_wall("plate", "above", 30.0, R"(contact_surface = "axis"; motion = { z = -1.0 })") +
+                        path(R"(step = 0.02; branches = "primary"; stop = { lambda = [-0.1, 0.1] })") +
+                        wall_monitor("force", "plate", "force-z", flipped));
   const RecordPoint& last = ring.record().points.back();
   ASSERT_EQ(last.lambda, 0.1);
   const double EI = 5.0 * 20.0 * 8.0 / 12.0, pi = 3.14159265358979;
@@ -221,28 +167,15 @@ sign = -1
 // M and w at the middle. Contact at nodes knows b to an element. That the pipe moves as a whole resists only contact at
 // 82 nodes, all without force at the start.
 TEST(LooseBodies, AHeavyPipeThatLiesOnBothSidesOfATrenchSagsIntoIt) {
-  const TracedDeck traced(R"toml(
-title = "A pipe over a trench"
-units = { length = "m", force = "kN" }
-material.s = { E = 2.1e8 }
-section.r = { shape = "general", A = 0.01, I = 1e-5, height = 0.2 }
-point = { a = [-40.0, 0.1], b = [40.0, 0.1] }
-support = { a = ["x"] }
-member.p = { from = "a", to = "b", theory = "elastica", material = "s", section = "r", elements = 160 }
-load = [{ on = "p", distributed = [0.0, -1.0] }]
-wall = [
-  { name = "left", outline = { type = "polyline", x = [-60.0, -10.0, -10.0], z = [0.0, 0.0, -5.0] } },
-  { name = "right", outline = { type = "polyline", x = [10.0, 10.0, 60.0], z = [-5.0, 0.0, 0.0] } },
-]
-monitor = [
-  { name = "fl", wall = "left", component = "force-z" },
-  { name = "fr", wall = "right", component = "force-z" },
-  { name = "w", at = "p:0.5", component = "z", sign = -1 },
-  { name = "M", at = "p:0.5", component = "moment" },
-]
-contact = { points = "nodes" }
-path = { step = 0.05, stop = { lambda = [-0.1, 1.0] } }
-)toml");
+  const TracedDeck traced(
+      title("A pipe over a trench") + units("m", "kN") + material("s", 2.1e8) +
+      general_section("r", 0.01, 1e-5, "height = 0.2") + points({{"a", -40.0, 0.1}, {"b", 40.0, 0.1}}) +
+      supports({{"a", "x"}}) + member("p", "a", "b", "elastica", 160, "", "s", "r") + distributed("p", 0.0, -1.0) +
+      wall("left", R"(outline = { type = "polyline", x = [-60.0, -10.0, -10.0], z = [0.0, 0.0, -5.0] })") +
+      wall("right", R"(outline = { type = "polyline", x = [10.0, 10.0, 60.0], z = [-5.0, 0.0, 0.0] })") +
+      wall_monitor("fl", "left", "force-z") + wall_monitor("fr", "right", "force-z") +
+      monitor("w", "p:0.5", "z", flipped) + monitor("M", "p:0.5", "moment") + contact(R"(points = "nodes")") +
+      path("step = 0.05; stop = { lambda = [-0.1, 1.0] }"));
   expect_confirmed(traced);
   const double l = 20.0, q = 1.0, EI = 2.1e3, element = 0.5;
   const double b = l * (2.0 * std::cos(2.0 * pi / 9.0) - 1.0);

@@ -8,35 +8,21 @@
 
 #include "core/error.hpp"
 #include "tests/apps/loading/loading_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::loading_test {
+
+using namespace test::tables;
 
 namespace {
 
 // Lee's frame whose loaded point is pushed down.
-const std::string pushed_lees_frame = R"(
-title = "Lee's frame, pushed"
-material.m.E = 720.0
-section.s = { shape = "general", A = 6.0, I = 2.0 }
-[point]
-foot = [0.0, 0.0]
-corner = [0.0, 120.0]
-loaded = [24.0, 120.0]
-end = [120.0, 120.0]
-[member]
-column = { from = "foot", to = "corner", theory = "elastica", elements = 20, material = "m", section = "s" }
-left = { from = "corner", to = "loaded", theory = "elastica", elements = 4, material = "m", section = "s" }
-right = { from = "loaded", to = "end", theory = "elastica", elements = 16, material = "m", section = "s" }
-[support]
-foot = ["x", "z"]
-end = ["x", "z"]
-[[prescribed]]
-at = "loaded"
-z = -1.0
-[path]
-step = 1.0
-stop = { lambda = [-1.0, 90.0] }
-)";
+const std::string pushed_lees_frame =
+    title("Lee's frame, pushed") + material("m", 720.0) + general_section("s", 6.0, 2.0) +
+    points({{"foot", 0.0, 0.0}, {"corner", 0.0, 120.0}, {"loaded", 24.0, 120.0}, {"end", 120.0, 120.0}}) +
+    member("column", "foot", "corner", "elastica", 20) + member("left", "corner", "loaded", "elastica", 4) +
+    member("right", "loaded", "end", "elastica", 16) + supports({{"foot", "x z"}, {"end", "x z"}}) +
+    prescribed("loaded", "z = -1.0") + path("step = 1.0; stop = { lambda = [-1.0, 90.0] }");
 
 }  // namespace
 
@@ -164,25 +150,11 @@ TEST(Prescribed, GivesTheSameEventsAlongAnyPathSlow) {
 // A steep truss (b = 1, h = 5, Green's strain) whose apex is pushed down: it sways between z² = h² − 2b² on both sides,
 // in closed form, and has no limit point at all. At rest it moves by symmetry alone, without any unknown.
 TEST(Prescribed, ASteepTrussSwaysAndHasNoLimitPoint) {
-  const TracedDeck traced(R"(
-title = "Steep truss, pushed"
-material.m.E = 1.0
-section.s = { shape = "general", A = 1.0, I = 1.0 }
-point = { left = [-1.0, 0.0], top = [0.0, 5.0], right = [1.0, 0.0] }
-[member]
-a = { from = "left", to = "top", theory = "truss", elements = 1, material = "m", section = "s" }
-b = { from = "top", to = "right", theory = "truss", elements = 1, material = "m", section = "s" }
-[support]
-left = ["x", "z"]
-right = ["x", "z"]
-[[prescribed]]
-at = "top"
-z = -1.0
-[path]
-step = 0.02
-branches = "primary"
-stop = { lambda = [-0.5, 10.5] }
-)");
+  const TracedDeck traced(title("Steep truss, pushed") + material("m", 1.0) + general_section("s", 1.0, 1.0) +
+                          points({{"left", -1.0, 0.0}, {"top", 0.0, 5.0}, {"right", 1.0, 0.0}}) +
+                          member("a", "left", "top", "truss", 1) + member("b", "top", "right", "truss", 1) +
+                          supports({{"left", "x z"}, {"right", "x z"}}) + prescribed("top", "z = -1.0") +
+                          path(R"(step = 0.02; branches = "primary"; stop = { lambda = [-0.5, 10.5] })"));
   const auto sways = events_of(traced, EventKind::branch_point);
   ASSERT_EQ(sways.size(), 2u);
   EXPECT_NEAR(sways[0].lambda, 5.0 - std::sqrt(23.0), 1e-9);

@@ -5,8 +5,11 @@
 #include <string>
 
 #include "tests/apps/loading/loading_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::loading_test {
+
+using namespace test::tables;
 
 namespace {
 
@@ -127,21 +130,11 @@ TEST(MovingWall, DoesTheWorkOfItsForceSlow) {
 
 // A round obstacle swings up under a beam; whatever is read off it is confirmed.
 TEST(MovingWall, IsConfirmedWhereItTurns) {
-  const std::string swing = R"(
-[[wall]]
-name = "swing"
-side = "below"
-profile = { type = "circle", centre = [1.0, -1.06], radius = 1.0 }
-motion = { x = -0.1, z = 0.1, rotation = 0.2, about = [0.5, 0.0] }
-[path]
-step = 0.1
-[path.stop]
-lambda = [-0.1, 1.0]
-[[monitor]]
-name = "moment"
-wall = "swing"
-component = "moment"
-)";
+  const std::string swing =
+      wall(
+          "swing",
+          R"(side = "below"; profile = { type = "circle", centre = [1.0, -1.06], radius = 1.0 }; motion = { x = -0.1, z = 0.1, rotation = 0.2, about = [0.5, 0.0] })") +
+      path("step = 0.1; stop = { lambda = [-0.1, 1.0] }") + wall_monitor("moment", "swing", "moment");
   for (const std::string points : {"moving", "nodes"}) {
     const TracedDeck traced(column(centimetres, swing), {"contact.points=\"" + points + "\""});
     EXPECT_GT(traced.record().points.back().contacts, 0) << points;

@@ -5,8 +5,11 @@
 #include <string>
 
 #include "tests/apps/loading/loading_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::loading_test {
+
+using namespace test::tables;
 
 namespace {
 
@@ -33,32 +36,12 @@ std::string ring_of(const std::vector<Quarter>& arcs, int elements, double great
   }
   return "title = \"Ring\"\nmaterial.m = { E = 1.0 }\nsection.s = { shape = \"general\", A = 1e5, I = 1.0 "
          "}\n[point]\n" +
-         points + members +
-         fmt::format(R"(
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = {{ type = "flat", z = -1.0 }}
-[[wall]]
-name = "plate"
-side = "above"
-contact_surface = "axis"
-profile = {{ type = "flat", z = 1.0 }}
-motion = {{ z = -1.0 }}
-[path]
-step = 0.01
-branches = "primary"
-output_at = {{ lambda = [0.1] }}
-[path.stop]
-lambda = [-0.01, {:.17g}]
-[[monitor]]
-name = "force"
-wall = "plate"
-component = "force-z"
-sign = -1
-)",
-                     greatest_way);
+         points + members + flat_wall("floor", "below", -1.0, on_axis) +
+         flat_wall("plate", "above", 1.0, R"(contact_surface = "axis"; motion = { z = -1.0 })") +
+         path(fmt::format(
+             R"(step = 0.01; branches = "primary"; output_at = {{ lambda = [0.1] }}; stop = {{ lambda = [-0.01, {}] }})",
+             greatest_way)) +
+         wall_monitor("force", "plate", "force-z", flipped);
 }
 
 }  // namespace

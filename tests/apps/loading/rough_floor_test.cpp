@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "tests/apps/loading/loading_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::loading_test {
+
+using namespace test::tables;
 
 namespace {
 
@@ -33,11 +36,6 @@ constant = true
 {}
 {})",
                      support, elements, loads, stages);
-}
-
-std::string stage(const std::string& name, const std::string& drives, double step, double low, double high) {
-  return fmt::format("[[stage]]\nname = \"{}\"\ndrives = [\"{}\"]\nstep = {}\nstop = {{ lambda = [{}, {}] }}\n", name,
-                     drives, step, low, high);
 }
 
 }  // namespace
@@ -75,52 +73,18 @@ TEST(RoughFloor, ARailIsPulledAndPushedSlow) {
 
 // Two blocks of steel in series with springs of 100 N/m, which are softer by 2e7: each end of each slips at 3 N.
 TEST(RoughFloor, StiffBlocksSlipOneEndAfterTheOther) {
-  const TracedDeck run(R"(
-title = "Blocks in series"
-units = { length = "m", force = "N" }
-material.m = { E = 2e11 }
-section.block = { shape = "rectangle", width = 0.1, height = 0.1 }
-section.spring = { shape = "general", A = 5e-10, I = 1e-10 }
-point = { a = [0.0, 0.0], b = [1.0, 0.0], c = [2.0, 0.0], e = [3.0, 0.0], d = [4.0, 0.0] }
-path = { branches = "primary", stop = { lambda = [-2.0, 2.0] } }
-member.p = { from = "a", to = "b", theory = "euler-bernoulli", material = "m", section = "block", elements = 1 }
-member.q = { from = "c", to = "e", theory = "euler-bernoulli", material = "m", section = "block", elements = 1 }
-[member.k1]
-from = "b"
-to = "c"
-theory = "truss"
-strain = "engineering"
-material = "m"
-section = "spring"
-elements = 1
-[member.k2]
-from = "e"
-to = "d"
-theory = "truss"
-strain = "engineering"
-material = "m"
-section = "spring"
-elements = 1
-[[load]]
-on = "p"
-distributed = [0.0, -20.0]
-constant = true
-[[load]]
-on = "q"
-distributed = [0.0, -20.0]
-constant = true
-[[prescribed]]
-at = "d"
-x = 0.5
-z = 0.0
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-members = ["p", "q"]
-profile = { type = "flat", z = 0.0 }
-friction = 0.3
-)");
+  const TracedDeck run(
+      title("Blocks in series") + units("m", "N") + material("m", 2e11) + rectangle("block", 0.1, 0.1) +
+      general_section("spring", 5e-10, 1e-10) +
+      points({{"a", 0.0, 0.0}, {"b", 1.0, 0.0}, {"c", 2.0, 0.0}, {"e", 3.0, 0.0}, {"d", 4.0, 0.0}}) +
+      path(R"(branches = "primary"; stop = { lambda = [-2.0, 2.0] })") +
+      member("p", "a", "b", "euler-bernoulli", 1, "", "m", "block") +
+      member("q", "c", "e", "euler-bernoulli", 1, "", "m", "block") +
+      member("k1", "b", "c", "truss", 1, R"(strain = "engineering")", "m", "spring") +
+      member("k2", "e", "d", "truss", 1, R"(strain = "engineering")", "m", "spring") +
+      distributed("p", 0.0, -20.0, constant) + distributed("q", 0.0, -20.0, constant) +
+      prescribed("d", "x = 0.5; z = 0.0") +
+      flat_wall("floor", "below", 0.0, R"(contact_surface = "axis"; members = ["p", "q"]; friction = 0.3)"));
   const auto slips = events_of(run, EventKind::contact_slips);
   ASSERT_EQ(slips.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -134,29 +98,12 @@ friction = 0.3
 
 // An A-frame whose feet slip apart until its ridge lies on the floor: what touches there holds from then on.
 TEST(RoughFloor, AFrameCollapsesOnItsFloor) {
-  const TracedDeck run(R"(
-title = "A-frame collapses"
-material.m = { E = 2e9 }
-section.s = { shape = "general", A = 0.01, I = 1e-6 }
-point = { a = [-1.0, 0.0], t = [0.0, 1.0], b = [1.0, 0.0] }
-path = { step = 1.0, stop = { lambda = [-1.0, 60.0] } }
-member.l = { from = "a", to = "t", theory = "truss", strain = "engineering", material = "m", section = "s", elements = 1 }
-member.r = { from = "t", to = "b", theory = "truss", strain = "engineering", material = "m", section = "s", elements = 1 }
-spring = [{ between = ["a", "b"], stiffness = { x = 20.0 } }]
-wall = [{ name = "floor", side = "below", contact_surface = "axis", profile = { type = "flat", z = 0.0 }, friction = 0.4 }]
-monitor = [{ name = "ridge", at = "t", component = "z" }]
-[[load]]
-at = "a"
-force = [0.0, -10.0]
-constant = true
-[[load]]
-at = "b"
-force = [0.0, -12.0]
-constant = true
-[[load]]
-at = "t"
-force = [0.0, -1.0]
-)");
+  const TracedDeck run(title("A-frame collapses") + material("m", 2e9) + general_section("s", 0.01, 1e-6) +
+                       points({{"a", -1.0, 0.0}, {"t", 0.0, 1.0}, {"b", 1.0, 0.0}}) +
+                       path("step = 1.0; stop = { lambda = [-1.0, 60.0] }") + bar("l", "a", "t") + bar("r", "t", "b") +
+                       table("[[spring]]", R"(between = ["a", "b"]; stiffness = { x = 20.0 })") +
+                       flat_wall("floor", "below", 0.0, rough(0.4)) + monitor("ridge", "t", "z") +
+                       force("a", 0.0, -10.0, constant) + force("b", 0.0, -12.0, constant) + force("t", 0.0, -1.0));
   EXPECT_EQ(run.record().points.back().lambda, 60.0);
   EXPECT_NEAR(monitored_at_end(run, 0), -1.0, 1e-12);
   EXPECT_EQ(run.record().points.back().count.unstable, Index{0});

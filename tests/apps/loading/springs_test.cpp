@@ -8,57 +8,33 @@
 #include "core/error.hpp"
 #include "model/deck/reader.hpp"
 #include "tests/apps/loading/loading_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::loading_test {
+
+using namespace test::tables;
 
 namespace {
 
 // Of every kind, in every direction.
 std::string springs(const UnitsOf& in) {
-  return fmt::format(R"(
-[[load]]
-at = "B"
-force = [{:.17g}, 0.0]
-[[spring]]
-at = "mid"
-stiffness = {{ x = {:.17g}, z = {:.17g} }}
-[[spring]]
-at = "first:0.5"
-stiffness = {{ rotation = {:.17g} }}
-[[spring]]
-between = ["A", "B"]
-stiffness = {{ x = {:.17g}, rotation = {:.17g} }}
-[[spring]]
-on = "second"
-foundation = {{ x = {:.17g}, z = {:.17g} }}
-[path]
-step = 0.1
-branches = "all"
-depth = 1
-[path.stop]
-lambda = [-0.1, 3.0]
-[[monitor]]
-name = "mid"
-at = "first:0.5"
-component = "rotation"
-)",
-                     -in.kN, in.per_length(0.3), in.per_length(0.8), in.moment(0.02), in.per_length(0.7),
-                     in.moment(0.05), in.stress(0.2), in.stress(0.9));
+  return force("B", -in.kN, 0.0) +
+         table("[[spring]]",
+               fmt::format(R"(at = "mid"; stiffness = {{ x = {}, z = {} }})", in.per_length(0.3), in.per_length(0.8))) +
+         table("[[spring]]", fmt::format(R"(at = "first:0.5"; stiffness = {{ rotation = {} }})", in.moment(0.02))) +
+         table("[[spring]]", fmt::format(R"(between = ["A", "B"]; stiffness = {{ x = {}, rotation = {} }})",
+                                         in.per_length(0.7), in.moment(0.05))) +
+         table("[[spring]]",
+               fmt::format(R"(on = "second"; foundation = {{ x = {}, z = {} }})", in.stress(0.2), in.stress(0.9))) +
+         path(R"(step = 0.1; branches = "all"; depth = 1; stop = { lambda = [-0.1, 3.0] })") +
+         monitor("mid", "first:0.5", "rotation");
 }
 
 // With these loads and springs the column comes to λ = 1 in one state on the deck's mesh and on one that slides, beside
 // a wall that nothing touches. There its middle has turned by so much at least.
 void expect_same_where_the_mesh_slides(const std::string& loaded, double least_turn) {
-  const std::string path = R"(
-[path]
-step = 0.05
-[path.stop]
-lambda = [-1.0, 1.0]
-[[monitor]]
-name = "turn"
-at = "first:0.5"
-component = "rotation"
-)";
+  const std::string path =
+      test::tables::path("step = 0.05; stop = { lambda = [-1.0, 1.0] }") + monitor("turn", "first:0.5", "rotation");
   const std::string wall = R"(
 [[wall]]
 name = "far"
@@ -99,17 +75,8 @@ TEST(Springs, AreConfirmedSlow) {
 
 // A force and a spring between the same places: with a wall that nothing touches the path is the one without.
 TEST(Springs, ActWhereForcesDoWhateverTheMesh) {
-  const std::string loaded = R"(
-[[load]]
-at = "B"
-force = [-0.2, 0.0]
-[[load]]
-at = "mid"
-force = [0.0, 0.05]
-[[spring]]
-between = ["A", "mid"]
-stiffness = { z = 3.0, rotation = 0.4 }
-)";
+  const std::string loaded = force("B", -0.2, 0.0) + force("mid", 0.0, 0.05) +
+                             table("[[spring]]", R"(between = ["A", "mid"]; stiffness = { z = 3.0, rotation = 0.4 })");
   expect_same_where_the_mesh_slides(loaded, 1e-3);
 }
 
@@ -127,20 +94,14 @@ TEST(Springs, HoldAStructureByThemselves) {
 // A stiff lever with a load P in its middle rests on a spring at its end, which bears P/2 at any slope: the load is
 // twice the force of the law, which has its maximum 0.7 at 0.2, and 0.2 at 0.5.
 TEST(Springs, BearByALawWhatStaticsSay) {
-  const std::string text = R"(
-title = "Lever"
-material.m.E = 1e4
-section.s = { shape = "general", A = 100.0, I = 100.0 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-member.lever = { from = "A", to = "B", theory = "euler-bernoulli", elements = 2, material = "m", section = "s" }
-support = { A = ["x", "z"] }
-load = [{ at = "lever:0.5", force = [0.0, -1.0] }]
-path = { step = 0.05, output_at = { B = [-0.1] }, stop = { B = [-0.45, 1.0] } }
-monitor = [{ name = "B", at = "B", component = "z" }]
-[[spring]]
-at = "B"
-law = { direction = "z", displacement = [-0.5, -0.2, 0.0, 0.2, 0.5], force = [-0.2, -0.7, 0.0, 0.7, 0.2], interpolation = "smooth" }
-)";
+  const std::string text =
+      title("Lever") + material("m", 1e4) + general_section("s", 100.0, 100.0) +
+      points({{"A", 0.0, 0.0}, {"B", 2.0, 0.0}}) + member("lever", "A", "B", "euler-bernoulli", 2) +
+      supports({{"A", "x z"}}) + force("lever:0.5", 0.0, -1.0) +
+      path("step = 0.05; output_at = { B = [-0.1] }; stop = { B = [-0.45, 1.0] }") + monitor("B", "B", "z") +
+      table(
+          "[[spring]]",
+          R"(at = "B"; law = { direction = "z", displacement = [-0.5, -0.2, 0.0, 0.2, 0.5], force = [-0.2, -0.7, 0.0, 0.7, 0.2], interpolation = "smooth" })");
   const TracedDeck traced(text);
   const auto limits = events_of(traced, EventKind::limit_point);
   ASSERT_EQ(limits.size(), 1u);
@@ -196,20 +157,14 @@ law = { direction = "z", displacement = [-0.5, -0.2, 0.0, 0.2, 0.5], force = [-0
 // w the soil's moment is f L² (½ − 7/60 (d/w)²): below d the force is f (t + t² − t³), t = u/d, by Hermite's cubic
 // with the slope f/d of the secants at 0 and 0 at d. Both that and the load at the end have arms with the same cosine.
 TEST(Springs, OfAFoundationThatGivesWayHoldALeverAsStaticsSaySlow) {
-  const std::string text = R"(
-title = "Lever in soil"
-material.m.E = 1e6
-section.s = { shape = "general", A = 100.0, I = 100.0 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-member.lever = { from = "A", to = "B", theory = "elastica", elements = 40, material = "m", section = "s" }
-support = { A = ["x", "z"] }
-load = [{ at = "B", force = [0.0, -1.0] }]
-path = { step = 0.05, output_at = { B = [-0.2, -0.4] }, stop = { B = [-0.4, 1.0] } }
-monitor = [{ name = "B", at = "B", component = "z" }]
-[[spring]]
-on = "lever"
-law = { direction = "z", displacement = [-1.0, -0.1, 0.0, 0.1, 1.0], force = [-0.3, -0.3, 0.0, 0.3, 0.3] }
-)";
+  const std::string text =
+      title("Lever in soil") + material("m", 1e6) + general_section("s", 100.0, 100.0) +
+      points({{"A", 0.0, 0.0}, {"B", 2.0, 0.0}}) + member("lever", "A", "B", "elastica", 40) +
+      supports({{"A", "x z"}}) + force("B", 0.0, -1.0) +
+      path("step = 0.05; output_at = { B = [-0.2, -0.4] }; stop = { B = [-0.4, 1.0] }") + monitor("B", "B", "z") +
+      table(
+          "[[spring]]",
+          R"(on = "lever"; law = { direction = "z", displacement = [-1.0, -0.1, 0.0, 0.1, 1.0], force = [-0.3, -0.3, 0.0, 0.3, 0.3] })");
   const TracedDeck traced(text);
   int found = 0;
   for (const RecordPoint& point : traced.record().points)
@@ -245,20 +200,13 @@ TEST(Springs, OfAFoundationWithALawHoldAColumnByTheirStiffnessAtRest) {
 
 // On meshes that slide the path is the one on the deck's, whatever the law.
 TEST(Springs, OfAFoundationWithALawActWhateverTheMeshSlow) {
-  const std::string loaded = R"(
-[[load]]
-at = "B"
-force = [-0.5, 0.0]
-[[load]]
-on = "first"
-distributed = [0.0, 0.4]
-[[spring]]
-on = "first"
-law = { direction = "z", displacement = [-0.5, 0.0, 0.02, 0.05, 0.5], force = [-3.0, 0.0, 0.06, 0.04, 0.3] }
-[[spring]]
-on = "second"
-law = { direction = "x", displacement = [-0.5, 0.0, 0.5], force = [-0.3, 0.0, 0.3] }
-)";
+  const std::string loaded =
+      force("B", -0.5, 0.0) + distributed("first", 0.0, 0.4) +
+      table(
+          "[[spring]]",
+          R"(on = "first"; law = { direction = "z", displacement = [-0.5, 0.0, 0.02, 0.05, 0.5], force = [-3.0, 0.0, 0.06, 0.04, 0.3] })") +
+      table("[[spring]]",
+            R"(on = "second"; law = { direction = "x", displacement = [-0.5, 0.0, 0.5], force = [-0.3, 0.0, 0.3] })");
   expect_same_where_the_mesh_slides(loaded, 1e-2);
 }
 
@@ -286,15 +234,9 @@ TEST(Springs, OfALawMustBeAtRestWithoutDisplacement) {
 }
 
 TEST(Springs, AreNotForBars) {
-  const std::string text = R"(
-title = "Bar"
-material.m.E = 1.0
-section.s = { shape = "general", A = 1.0, I = 1.0 }
-point = { A = [0.0, 0.0], B = [1.0, 1.0] }
-member.bar = { from = "A", to = "B", theory = "truss", elements = 1, material = "m", section = "s" }
-support = { A = ["x", "z"], B = ["x"] }
-load = [{ at = "B", force = [0.0, -1.0] }]
-)";
+  const std::string text = title("Bar") + material("m", 1.0) + general_section("s", 1.0, 1.0) +
+                           points({{"A", 0.0, 0.0}, {"B", 1.0, 1.0}}) + member("bar", "A", "B", "truss", 1) +
+                           supports({{"A", "x z"}, {"B", "x"}}) + force("B", 0.0, -1.0);
   const auto problem = [&](const std::string& spring) -> std::string {
     try {
       const Model model(deck::read_deck_text(text + spring, "bar.toml"));
@@ -303,12 +245,12 @@ load = [{ at = "B", force = [0.0, -1.0] }]
     }
     return "";
   };
-  EXPECT_NE(
-      problem("spring = [{ on = \"bar\", foundation = { z = 1.0 } }]").find("spring.on: member \"bar\" is a truss"),
-      std::string::npos);
-  EXPECT_NE(problem("spring = [{ at = \"B\", stiffness = { rotation = 1.0 } }]").find("\"B\" has a rotation"),
+  EXPECT_NE(problem(table("[[spring]]", R"(on = "bar"; foundation = { z = 1.0 })"))
+                .find("spring.on: member \"bar\" is a truss"),
             std::string::npos);
-  EXPECT_EQ(problem("spring = [{ at = \"B\", stiffness = { z = 1.0 } }]"), "");
+  EXPECT_NE(problem(table("[[spring]]", R"(at = "B"; stiffness = { rotation = 1.0 })")).find("\"B\" has a rotation"),
+            std::string::npos);
+  EXPECT_EQ(problem(table("[[spring]]", R"(at = "B"; stiffness = { z = 1.0 })")), "");
 }
 
 }  // namespace arcwall::loading_test

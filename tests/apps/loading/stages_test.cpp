@@ -10,54 +10,28 @@
 #include "model/deck/reader.hpp"
 #include "model/deck/writer.hpp"
 #include "tests/apps/loading/loading_decks.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::loading_test {
+
+using namespace test::tables;
 
 namespace {
 
 // A column whose right end is pushed, and whose middle is; [cm, kN]. Its middle is pushed off by a little that stays.
 std::string pushed_column(const std::string& more) {
-  return column(centimetres, R"(
-[[load]]
-at = "mid"
-force = [0.0, 0.002]
-constant = true
-[[load]]
-at = "mid"
-force = [0.0, 0.02]
-[[prescribed]]
-at = "B"
-x = -1.0
-[path]
-step = 0.02
-[[monitor]]
-name = "mid"
-at = "mid"
-component = "z"
-[[monitor]]
-name = "push"
-at = "B"
-component = "reaction-x"
-)" + more);
+  return column(centimetres, force("mid", 0.0, 0.002, constant) + force("mid", 0.0, 0.02) +
+                                 prescribed("B", "x = -1.0") + path("step = 0.02") + monitor("mid", "mid", "z") +
+                                 monitor("push", "B", "reaction-x") + more);
 }
 
-const std::string three_stages = R"(
-[[stage]]
-name = "shorten"
-drives = ["prescribed.0"]
-stop = { lambda = [-0.1, 0.05] }
-step = 0.005
-[[stage]]
-name = "press"
-drives = ["load.1"]
-stop = { lambda = [-1.0, 0.5] }
-output_at = { lambda = [0.25] }
-[[stage]]
-name = "release"
-drives = ["prescribed.0"]
-stop = { lambda = [-0.05, 0.1] }
-step = -0.005
-)";
+const std::string three_stages =
+    table("[[stage]]",
+          R"(name = "shorten"; drives = ["prescribed.0"]; stop = { lambda = [-0.1, 0.05] }; step = 0.005)") +
+    table("[[stage]]",
+          R"(name = "press"; drives = ["load.1"]; stop = { lambda = [-1.0, 0.5] }; output_at = { lambda = [0.25] })") +
+    table("[[stage]]",
+          R"(name = "release"; drives = ["prescribed.0"]; stop = { lambda = [-0.05, 0.1] }; step = -0.005)");
 
 // The last point of each stage.
 std::vector<RecordPoint> ends_of_stages(const Record& record) {
@@ -68,97 +42,36 @@ std::vector<RecordPoint> ends_of_stages(const Record& record) {
 }
 
 std::string indented_in_and_out() {
-  return column(centimetres, R"(
-[[wall]]
-name = "indenter"
-side = "above"
-contact_surface = "axis"
-profile = { type = "circle", centre = [1.0, 1.05], radius = 1.0 }
-motion = { z = -1.0, rotation = 0.3, about = [1.0, 1.05] }
-[[load]]
-at = "B"
-force = [0.05, 0.0]
-[path]
-step = 0.01
-[[monitor]]
-name = "mid"
-at = "mid"
-component = "z"
-[[monitor]]
-name = "push"
-wall = "indenter"
-component = "force-z"
-[[stage]]
-name = "in"
-drives = ["wall.indenter"]
-stop = { lambda = [-0.1, 0.15] }
-[[stage]]
-name = "pull"
-drives = ["load.0"]
-stop = { lambda = [-1.0, 1.0] }
-step = 0.1
-[[stage]]
-name = "out"
-drives = ["wall.indenter"]
-stop = { lambda = [-0.15, 0.1] }
-step = -0.01
-)");
+  return column(
+      centimetres,
+      wall(
+          "indenter",
+          R"(side = "above"; contact_surface = "axis"; profile = { type = "circle", centre = [1.0, 1.05], radius = 1.0 }; motion = { z = -1.0, rotation = 0.3, about = [1.0, 1.05] })") +
+          force("B", 0.05, 0.0) + path("step = 0.01") + monitor("mid", "mid", "z") +
+          wall_monitor("push", "indenter", "force-z") +
+          table("[[stage]]", R"(name = "in"; drives = ["wall.indenter"]; stop = { lambda = [-0.1, 0.15] })") +
+          table("[[stage]]", R"(name = "pull"; drives = ["load.0"]; stop = { lambda = [-1.0, 1.0] }; step = 0.1)") +
+          table("[[stage]]",
+                R"(name = "out"; drives = ["wall.indenter"]; stop = { lambda = [-0.15, 0.1] }; step = -0.01)"));
 }
 
 // A bow that a plate presses down and a force draws out, in the stages of `order`.
 std::string pressed_and_pulled(const std::string& order) {
-  return R"(
-title = "Bow under a plate"
-material.m = { E = 21000.0 }
-section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-member.arch = { from = "A", to = "B", sine = { rise = 0.3, waves = 1 }, theory = "elastica", elements = 20, material = "m", section = "s" }
-support = { A = ["x", "z"], B = ["z"] }
-[[wall]]
-name = "plate"
-side = "above"
-contact_surface = "axis"
-profile = { type = "flat", z = 0.32 }
-motion = { z = -1.0 }
-[[load]]
-at = "B"
-force = [0.1, 0.0]
-[[monitor]]
-name = "quarter"
-at = "arch:0.25"
-component = "z"
-[[monitor]]
-name = "end"
-at = "B"
-component = "x"
-[[monitor]]
-name = "push"
-wall = "plate"
-component = "force-z"
-)" + order;
+  return title("Bow under a plate") + material("m", 21000.0) + rectangle("s", 0.1, 0.1) +
+         points({{"A", 0.0, 0.0}, {"B", 2.0, 0.0}}) +
+         member("arch", "A", "B", "elastica", 20, "sine = { rise = 0.3, waves = 1 }") +
+         supports({{"A", "x z"}, {"B", "z"}}) +
+         flat_wall("plate", "above", 0.32, R"(contact_surface = "axis"; motion = { z = -1.0 })") +
+         force("B", 0.1, 0.0) + monitor("quarter", "arch:0.25", "z") + monitor("end", "B", "x") +
+         wall_monitor("push", "plate", "force-z") + order;
 }
 
-const std::string press = R"(
-[[stage]]
-name = "press"
-drives = ["wall.plate"]
-step = 0.01
-stop = { lambda = [-0.1, 0.2] }
-)";
-const std::string pull = R"(
-[[stage]]
-name = "pull"
-drives = ["load.0"]
-step = 0.1
-stop = { lambda = [-1.0, 1.0] }
-)";
-const std::string back = R"(
-[[stage]]
-name = "back"
-drives = ["wall.plate"]
-step = -0.01
-stop = { lambda = [-0.2, 0.1] }
-)";
+const std::string press =
+    table("[[stage]]", R"(name = "press"; drives = ["wall.plate"]; step = 0.01; stop = { lambda = [-0.1, 0.2] })");
+const std::string pull =
+    table("[[stage]]", R"(name = "pull"; drives = ["load.0"]; step = 0.1; stop = { lambda = [-1.0, 1.0] })");
+const std::string back =
+    table("[[stage]]", R"(name = "back"; drives = ["wall.plate"]; step = -0.01; stop = { lambda = [-0.2, 0.1] })");
 
 std::string stage_problem(const std::string& from, const std::string& to) {
   std::string deck = pushed_column(three_stages);

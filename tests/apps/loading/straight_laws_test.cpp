@@ -52,7 +52,7 @@ double softening_force(double w) {
   return w <= 1.0 ? 0.2 + 2.0 * (w - 0.5) : 1.2;
 }
 
-std::string path(double step, double max_step, const std::string& stop, const std::string& more = "") {
+std::string path_to(double step, double max_step, const std::string& stop, const std::string& more = "") {
   return fmt::format("[path]\nstep = {}\nmax_step = {}\n{}\n[path.stop]\n{}\n", step, max_step, more, stop);
 }
 
@@ -94,7 +94,7 @@ at = "b"
 TEST(StraightLaws, MakeLimitPointsAtTheirKinksWhateverTheStep) {
   for (const double max_step : {0.02, 0.2, 1.0, 10.0}) {
     SCOPED_TRACE(max_step);
-    const TracedDeck traced(bars({"b"}) + softening("b") + down("b") + path(0.05, max_step, "b = [-2.0, 1.2]"));
+    const TracedDeck traced(bars({"b"}) + softening("b") + down("b") + path_to(0.05, max_step, "b = [-2.0, 1.2]"));
     const auto limits = events_of(traced, EventKind::contact_limit_point);
     ASSERT_EQ(limits.size(), 2u);
     EXPECT_TRUE(events_of(traced, EventKind::limit_point).empty());
@@ -115,7 +115,7 @@ TEST(StraightLaws, MakeLimitPointsAtTheirKinksWhateverTheStep) {
 
 // The law is odd: downwards and upwards the same, and back over its kinks.
 TEST(StraightLaws, ArePassedInBothSenses) {
-  const TracedDeck up(bars({"b"}) + softening("b") + down("b") + path(-0.05, 0.3, "b = [-1.2, 2.0]"));
+  const TracedDeck up(bars({"b"}) + softening("b") + down("b") + path_to(-0.05, 0.3, "b = [-1.2, 2.0]"));
   const auto limits = events_of(up, EventKind::contact_limit_point);
   ASSERT_EQ(limits.size(), 2u);
   EXPECT_NEAR(limits[0].lambda, -0.7 - bar(0.2), 1e-9);
@@ -144,7 +144,7 @@ TEST(StraightLaws, ArePassedInBothSenses) {
 TEST(StraightLaws, MayHaveAKinkAtRest) {
   for (const double sense : {1.0, -1.0}) {
     const TracedDeck traced(bars({"b"}) + ground("b", "-1.0, 0.0, 1.0", "-3.0, 0.0, 1.0") + down("b") +
-                            path(0.05 * sense, 0.5, "b = [-0.9, 0.9]"));
+                            path_to(0.05 * sense, 0.5, "b = [-0.9, 0.9]"));
     for (const RecordPoint& point : traced.record().points) {
       const double w = point.monitors[0];
       EXPECT_NEAR(point.lambda, (w > 0.0 ? 3.0 : 1.0) * w + bar(w), 1e-9);
@@ -160,7 +160,7 @@ TEST(StraightLaws, OfAlikeSpringsHaveTheirKinksTogether) {
   const std::string hardening = "-1.0, -0.2, 0.0, 0.2, 1.0", forces = "-3.0, -0.2, 0.0, 0.2, 3.0";
   for (const double max_step : {0.05, 1.0}) {
     const TracedDeck traced(bars({"a", "b"}) + ground("a", hardening, forces) + ground("b", hardening, forces) +
-                            down("a") + down("b") + path(0.05, max_step, "a = [-2.0, 0.8]"));
+                            down("a") + down("b") + path_to(0.05, max_step, "a = [-2.0, 0.8]"));
     for (const RecordPoint& point : traced.record().points) {
       const double w = point.monitors[0];
       EXPECT_NEAR(point.monitors[1], w, 1e-9);
@@ -176,7 +176,7 @@ TEST(StraightLaws, OfAlikeSpringsHaveTheirKinksTogether) {
 TEST(StraightLaws, OfAlikeSpringsThatSoftenBifurcateAtTheirKinks) {
   for (const double max_step : {0.05, 1.0}) {
     const TracedDeck traced(bars({"a", "b"}) + softening("a") + softening("b") + down("a") + down("b") +
-                            path(0.05, max_step, "lambda = [-1.0, 2.0]\na = [-2.0, 0.4]\nb = [-2.0, 0.4]"));
+                            path_to(0.05, max_step, "lambda = [-1.0, 2.0]\na = [-2.0, 0.4]\nb = [-2.0, 0.4]"));
     const auto& limit = event_of(traced, EventKind::contact_limit_point);
     EXPECT_NEAR(limit.lambda, 0.7 + bar(0.2), 1e-9);
     EXPECT_EQ(limit.unstable_after, 1);
@@ -194,7 +194,7 @@ TEST(StraightLaws, ActBetweenPoints) {
       bars({"a", "b"}) + "[[spring]]\nat = \"a\"\nstiffness = { z = 2.0 }\n" +
       "[[spring]]\nbetween = [\"a\", \"b\"]\nlaw = { direction = \"z\", displacement = [-0.6, -0.2, "
       "0.0, 0.2], force = [-0.3, -0.7, 0.0, 0.7], interpolation = \"linear\" }\n" +
-      down("b") + path(0.05, 0.5, "b = [-2.0, 0.9]"));
+      down("b") + path_to(0.05, 0.5, "b = [-2.0, 0.9]"));
   const auto& limit = event_of(traced, EventKind::contact_limit_point);
   // The spring has 0.7 where b has moved by 0.2 against a; the bar of b bears its own part.
   const double a = limit.monitors[0], b = limit.monitors[1];
@@ -208,7 +208,7 @@ TEST(StraightLaws, ActBetweenPoints) {
 TEST(StraightLaws, AreFollowedWhileConstantLoadsGrow) {
   const TracedDeck traced(bars({"b"}) + ground("b", "-1.0, -0.2, 0.0, 1.0", "-3.0, -0.2, 0.0, 1.0") +
                           "[[load]]\nat = \"b\"\nforce = [0.0, -0.9]\nconstant = true\n" + down("b") +
-                          path(0.05, 0.5, "lambda = [-1.0, 1.0]"));
+                          path_to(0.05, 0.5, "lambda = [-1.0, 1.0]"));
   for (const RecordPoint& point : traced.record().points) {
     const double w = point.monitors[0];
     EXPECT_NEAR(0.9 + point.lambda, 0.2 + 3.5 * (w - 0.2) + bar(w), 1e-9);
@@ -219,7 +219,7 @@ TEST(StraightLaws, AreFollowedWhileConstantLoadsGrow) {
 // By the force at the softening kink λ moves as the law says: λ = F + ½ EA u³.
 TEST(StraightLaws, HaveSensitivitiesAtTheirKinks) {
   const TracedDeck traced(bars({"b"}) + softening("b") + down("b") +
-                          path(0.05, 0.5, "b = [-2.0, 0.8]", "sensitivity = [\"material.m.E\"]"));
+                          path_to(0.05, 0.5, "b = [-2.0, 0.8]", "sensitivity = [\"material.m.E\"]"));
   const auto& limit = event_of(traced, EventKind::contact_limit_point);
   ASSERT_EQ(limit.sensitivity.size(), 1u);
   ASSERT_TRUE(limit.sensitivity[0].slope);

@@ -8,62 +8,19 @@
 #include "apps/output/result_json.hpp"
 #include "model/deck/reader.hpp"
 #include "tests/apps/traced_deck.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::recorder_test {
+
+using namespace test::tables;
 namespace {
 
-constexpr const char* truss = R"(
-title = "Two bars"
-[units]
-length = "m"
-force = "kN"
-[material.m]
-E = 1e4
-[section.s]
-shape = "general"
-A = 1.0
-I = 1.0
-[point]
-left = [-10.0, 0.0]
-top = [0.0, 1.0]
-right = [10.0, 0.0]
-[member.a]
-from = "left"
-to = "top"
-theory = "truss"
-material = "m"
-section = "s"
-elements = 1
-[member.b]
-from = "top"
-to = "right"
-theory = "truss"
-material = "m"
-section = "s"
-elements = 1
-[support]
-left = ["x", "z"]
-right = ["x", "z"]
-[[load]]
-at = "top"
-force = [0.0, -1.0]
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = { type = "flat", z = -0.5 }
-[contact]
-points = "nodes"
-[path]
-step = 0.3
-branches = "primary"
-[path.stop]
-contacts = 1
-[[monitor]]
-name = "w"
-at = "top"
-component = "z"
-)";
+const std::string truss =
+    title("Two bars") + units("m", "kN") + material("m", 1e4) + general_section("s", 1.0, 1.0) +
+    points({{"left", -10.0, 0.0}, {"top", 0.0, 1.0}, {"right", 10.0, 0.0}}) + member("a", "left", "top", "truss", 1) +
+    member("b", "top", "right", "truss", 1) + supports({{"left", "x z"}, {"right", "x z"}}) + force("top", 0.0, -1.0) +
+    flat_wall("floor", "below", -0.5, on_axis) + contact(R"(points = "nodes")") +
+    path(R"(step = 0.3; branches = "primary"; stop = { contacts = 1 })") + monitor("w", "top", "z");
 
 // A branch made by hand: what the recorder adds does not depend on how the path was found.
 Arc arc_at(const Model& model, double w, double arc, std::vector<EventKind> kinds) {

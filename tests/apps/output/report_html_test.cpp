@@ -12,8 +12,11 @@
 #include "apps/output/shown_number.hpp"
 #include "tests/apps/output/sample_record.hpp"
 #include "tests/apps/traced_deck.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::report_html_test {
+
+using namespace test::tables;
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -191,27 +194,11 @@ TEST(ReportHtml, OtherRunsAndMeasuredPointsAreDrawnOverTheSameMonitors) {
 // M and Q of a cantilever under a force F at its tip, in the limit of small loads: M = F (L − s), Q = −dM/ds = F, of
 // one sign along the member; at the face σ = M h/2I.
 TEST(ReportData, SectionForcesOfACantileverAreThoseOfStatics) {
-  const test::TracedDeck run(R"(
-title = "A cantilever"
-units = { length = "cm", force = "kN" }
-material.steel = { E = 2.1e4 }
-section.square = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { wall = [0.0, 0.0], tip = [2.0, 0.0] }
-support = { wall = ["x", "z", "rotation"] }
-[member.beam]
-from = "wall"
-to = "tip"
-theory = "elastica"
-material = "steel"
-section = "square"
-elements = 8
-[[load]]
-at = "tip"
-force = [0.0, 1.0]
-[path]
-step = 1e-6
-stop = { lambda = [-1.0, 1e-6] }
-)");
+  const test::TracedDeck run(title("A cantilever") + units("cm", "kN") + material("steel", 2.1e4) +
+                             rectangle("square", 0.1, 0.1) + points({{"wall", 0.0, 0.0}, {"tip", 2.0, 0.0}}) +
+                             supports({{"wall", "x z rotation"}}) +
+                             member("beam", "wall", "tip", "elastica", 8, "", "steel", "square") +
+                             force("tip", 0.0, 1.0) + path("step = 1e-6; stop = { lambda = [-1.0, 1e-6] }"));
   const Record& record = run.record();
   const ReportContent content = report_content(run.model(), record, scenes_to_draw(run.model(), record));
   const Json data = report_data(record, content.shapes);
@@ -233,32 +220,11 @@ stop = { lambda = [-1.0, 1e-6] }
 
 // A column that buckles: the tree has its branches, and every point has a shape.
 TEST(ReportHtml, ARunHasShapesAndBranches) {
-  const test::TracedDeck run(R"(
-title = "A column"
-units = { length = "cm", force = "kN" }
-material.steel = { E = 2.1e4 }
-section.square = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { left = [0.0, 0.0], right = [2.0, 0.0] }
-support = { left = ["x", "z"], right = ["z"] }
-[member.column]
-from = "left"
-to = "right"
-theory = "euler-bernoulli"
-material = "steel"
-section = "square"
-elements = 8
-[[load]]
-at = "right"
-force = [-1.0, 0.0]
-[[monitor]]
-name = "mid"
-at = "column:0.5"
-component = "z"
-[path]
-step = 0.1
-branches = "all"
-stop = { lambda = [-1.0, 0.6] }
-)");
+  const test::TracedDeck run(
+      title("A column") + units("cm", "kN") + material("steel", 2.1e4) + rectangle("square", 0.1, 0.1) +
+      points({{"left", 0.0, 0.0}, {"right", 2.0, 0.0}}) + supports({{"left", "x z"}, {"right", "z"}}) +
+      member("column", "left", "right", "euler-bernoulli", 8, "", "steel", "square") + force("right", -1.0, 0.0) +
+      monitor("mid", "column:0.5", "z") + path(R"(step = 0.1; branches = "all"; stop = { lambda = [-1.0, 0.6] })"));
   const Record& record = run.record();
 
   const std::string page = page_of(record, report_content(run.model(), record, scenes_to_draw(run.model(), record)));

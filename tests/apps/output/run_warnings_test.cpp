@@ -6,8 +6,11 @@
 #include "apps/output/walls_between_nodes.hpp"
 #include "tests/apps/cli/program_fixture.hpp"
 #include "tests/apps/traced_deck.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::run_warnings_test {
+
+using namespace test::tables;
 namespace {
 
 // A pinned column under a constant thrust along its axis, and a growing force across it. Euler's load is
@@ -55,28 +58,11 @@ TEST(RunWarnings, AnUnstableStartUnderConstantLoadsIsTold) {
 TEST(RunWarnings, UnitsThatDoNotFitAreTold) {
   std::string stiff = column(0.4);
   stiff.replace(stiff.find("2.1e4"), 5, "2.1e13");
-  const test::TracedDeck still(stiff), right(column(0.4)), soft(R"(
-title = "A bar"
-units = { length = "cm", force = "kN" }
-material.steel = { E = 1.0e-8 }
-section.square = { shape = "general", A = 1.0, I = 1.0 }
-point = { left = [0.0, 0.0], right = [2.0, 0.0] }
-support = { left = ["x", "z"], right = ["z"] }
-[member.bar]
-from = "left"
-to = "right"
-theory = "truss"
-strain = "engineering"
-material = "steel"
-section = "square"
-elements = 1
-[[load]]
-at = "right"
-force = [1.0, 0.0]
-[path]
-step = 0.5
-max_points = 5
-)");
+  const test::TracedDeck still(stiff), right(column(0.4)),
+      soft(title("A bar") + units("cm", "kN") + material("steel", 1.0e-8) + general_section("square", 1.0, 1.0) +
+           points({{"left", 0.0, 0.0}, {"right", 2.0, 0.0}}) + supports({{"left", "x z"}, {"right", "z"}}) +
+           member("bar", "left", "right", "truss", 1, R"(strain = "engineering")", "steel", "square") +
+           force("right", 1.0, 0.0) + path("step = 0.5; max_points = 5"));
   EXPECT_EQ(warning_of_units(right.model(), right.record()), "");
   EXPECT_TRUE(warning_of_units(still.model(), still.record()).starts_with("the structure has moved by no more than "));
   EXPECT_TRUE(
@@ -89,25 +75,16 @@ max_points = 5
 
 // A bar that is held at both ends and heated does not move; one that only a wall holds falls 5 mm onto it.
 TEST(RunWarnings, WhatDoesNotMoveOrIsNotHeldTellsNothingOfUnits) {
-  const std::string steel = R"(
-title = "A strip"
-units = { length = "mm", force = "N" }
-material.steel = { E = 2.1e5, expansion = 1.2e-5 }
-section.flat = { shape = "rectangle", width = 20.0, height = 2.0 }
-point = { left = [0.0, 0.0], right = [400.0, 0.0] }
-member.strip = { from = "left", to = "right", theory = "elastica", material = "steel", section = "flat", elements = 8 }
-)";
-  const test::TracedDeck heated(steel + R"(
-support = { left = ["x", "z", "rotation"], right = ["x", "z", "rotation"] }
-load = [{ on = "strip", temperature = 1.0 }]
-path = { step = 0.5, stop = { lambda = [-0.1, 1.0] } }
-)"),
-      falling(steel + R"(
-support = { left = ["x", "rotation"] }
-load = [{ at = "left", force = [0.0, -1000.0] }]
-wall = [{ name = "peg", contact_surface = "axis", outline = { type = "circle", centre = [0.0, -10.0], radius = 5.0 } }]
-path = { step = 0.5, stop = { lambda = [-0.1, 1.0] } }
-)");
+  const std::string steel = title("A strip") + units("mm", "N") + material("steel", 2.1e5, "expansion = 1.2e-5") +
+                            rectangle("flat", 20.0, 2.0) + points({{"left", 0.0, 0.0}, {"right", 400.0, 0.0}}) +
+                            member("strip", "left", "right", "elastica", 8, "", "steel", "flat");
+  const std::string to_one = path("step = 0.5; stop = { lambda = [-0.1, 1.0] }");
+  const test::TracedDeck heated(steel + supports({{"left", "x z rotation"}, {"right", "x z rotation"}}) +
+                                table("[[load]]", R"(on = "strip"; temperature = 1.0)") + to_one),
+      falling(steel + supports({{"left", "x rotation"}}) + force("left", 0.0, -1000.0) +
+              wall("peg",
+                   R"(contact_surface = "axis"; outline = { type = "circle", centre = [0.0, -10.0], radius = 5.0 })") +
+              to_one);
   EXPECT_EQ(warning_of_units(heated.model(), heated.record()), "");
   EXPECT_EQ(warning_of_units(falling.model(), falling.record()), "");
 }

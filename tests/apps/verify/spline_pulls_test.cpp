@@ -3,33 +3,23 @@
 #include <gtest/gtest.h>
 
 #include "tests/apps/traced_deck.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::verify::spline_pulls_test {
+
+using namespace test::tables;
 
 namespace {
 
 // A clamped column, pressed on a floor on which a part of it lies from x = 0.855 to 0.904 at λ = 3.27.
-constexpr std::string_view column = R"toml(
-title = "a column on a spline"
-material.m = { E = 2.1e7, nu = 0.3 }
-section.s = { shape = "rectangle", width = 0.023, height = 0.0005 }
-point = { left = [0.0, 0.0], right = [1.4, 0.0] }
-support = { left = ["x", "z", "rotation"], right = ["z"] }
-load = [{ at = "right", force = [-5.6e-5, 0.0] }]
-path = { step = 0.05, jumps = false, stop = { lambda = [-1.0, 3.27] } }
-[member.column]
-from = "left"
-to = "right"
-theory = "euler-bernoulli"
-material = "m"
-section = "s"
-elements = 40
-imperfection = [{ shape = "sine", waves = 1, amplitude = -0.000106 }, { shape = "sine", waves = 3, amplitude = 0.000012 }]
-[[wall]]
-name = "floor"
-side = "below"
-profile = { type = "spline", x = [-0.35, -0.05, 0.25, 0.55, 0.85, 1.15, 1.45, 1.75], z = [-0.0033, -0.00344, -0.004, -0.00317, -0.00321, -0.00322, -0.0039, -0.00417] }
-)toml";
+const std::string column =
+    title("a column on a spline") + material("m", 2.1e7, "nu = 0.3") + rectangle("s", 0.023, 0.0005) +
+    points({{"left", 0.0, 0.0}, {"right", 1.4, 0.0}}) + supports({{"left", "x z rotation"}, {"right", "z"}}) +
+    force("right", -5.6e-5, 0.0) + path("step = 0.05; jumps = false; stop = { lambda = [-1.0, 3.27] }") +
+    member("column", "left", "right", "euler-bernoulli", 40, imperfection({{1, -0.000106}, {3, 0.000012}})) +
+    wall(
+        "floor",
+        R"(side = "below"; profile = { type = "spline", x = [-0.35, -0.05, 0.25, 0.55, 0.85, 1.15, 1.45, 1.75], z = [-0.0033, -0.00344, -0.004, -0.00317, -0.00321, -0.00322, -0.0039, -0.00417] })");
 
 // The same floor but for one more point, at x = 0.88, higher by some parts in 10⁻⁶ than the floor is there.
 deck::Wall with_point(const deck::Wall& floor, double higher) {

@@ -14,8 +14,11 @@
 #include "model/deck/reader.hpp"
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/stored_files_of.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::verify::strain_energy_test {
+
+using namespace test::tables;
 
 namespace {
 
@@ -308,40 +311,20 @@ struct Kind {
   std::string name, theory, section = R"(shape = "rectangle", width = 0.5, height = 0.2)", axis{}, more{};
 };
 
-const std::string heat = R"([[load]]
-on = "m"
-temperature = 30.0
-[[load]]
-on = "m"
-temperature = 0.0
-gradient = 15.0
-constant = true
-)";
-const std::string lines = R"([[load]]
-on = "m"
-distributed = [0.3, -0.8]
-distributed_to = [0.1, -0.2]
-[[load]]
-on = "m"
-distributed = [0.0, -0.5]
-frame = "member"
-constant = true
-[[load]]
-on = "m"
-distributed = [0.0, -0.5]
-per = "x"
-)";
+const std::string heat = table("[[load]]", R"(on = "m"; temperature = 30.0)") +
+                         table("[[load]]", R"(on = "m"; temperature = 0.0; gradient = 15.0; constant = true)");
+const std::string lines = distributed("m", 0.3, -0.8, "distributed_to = [0.1, -0.2]") +
+                          distributed("m", 0.0, -0.5, R"(frame = "member"; constant = true)") +
+                          distributed("m", 0.0, -0.5, R"(per = "x")");
 const std::string pressed = R"([[load]]
 on = "m"
 pressure = 0.7
 )";
-const std::string bedded = R"([[spring]]
-on = "m"
-foundation = { x = 3.0, z = 8.0 }
-[[spring]]
-on = "m"
-law = { direction = "z", displacement = [-0.4, 0.0, 0.2, 0.5], force = [-2.0, 0.0, 3.0, 4.0] }
-)";
+const std::string bedded =
+    table("[[spring]]", R"(on = "m"; foundation = { x = 3.0, z = 8.0 })") +
+    table(
+        "[[spring]]",
+        R"(on = "m"; law = { direction = "z", displacement = [-0.4, 0.0, 0.2, 0.5], force = [-2.0, 0.0, 3.0, 4.0] })");
 
 std::vector<Kind> kinds() {
   const std::string table = R"(shape = "table", at = [0.0, 0.3, 1.0], A = [0.2, 0.1, 0.15], I = [2e-3, 1e-3, 3e-3])";
@@ -486,13 +469,7 @@ std::vector<std::string> refusals(const TracedDeck& traced, const std::string& d
 }
 
 // A strip that its load bends onto a floor.
-const std::string touching = R"(
-[[wall]]
-name = "floor"
-side = "below"
-contact_surface = "axis"
-profile = { type = "flat", z = -0.02 }
-)";
+const std::string touching = flat_wall("floor", "below", -0.02, on_axis);
 
 }  // namespace
 

@@ -17,8 +17,11 @@
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/expect_whole.hpp"
 #include "tests/apps/verify/stored_files_of.hpp"
+#include "tests/support/deck_tables.hpp"
 
 namespace arcwall::verify::verify_test {
+
+using namespace test::tables;
 
 namespace {
 
@@ -68,20 +71,8 @@ constant = true
 name = "floor"
 side = "below"
 profile = )" +
-         profile + R"(
-[path]
-step = 0.05
-[path.stop]
-lambda = [-1.0, 1.0]
-[[monitor]]
-name = "quarter"
-at = "beam:0.25"
-component = "z"
-[[monitor]]
-name = "support"
-at = "a"
-component = "reaction-z"
-)" + more;
+         profile + "\n" + path("step = 0.05; stop = { lambda = [-1.0, 1.0] }") + monitor("quarter", "beam:0.25", "z") +
+         monitor("support", "a", "reaction-z") + more;
 }
 
 const std::string flat = R"({ type = "flat", z = -0.6 })";
@@ -174,24 +165,16 @@ wall = [{ name = "stop", side = "below", profile = )" +
 }
 
 // A portal whose beam a load bends onto a round hill; a coarse mesh.
-constexpr std::string_view portal_on_hill = R"(
-title = "A portal on a hill"
-material.m = { E = 2.1e4 }
-section.s = { shape = "rectangle", width = 0.28, height = 0.14 }
-point = { a = [0.0, 0.0], b = [0.0, 15.0], c = [16.0, 15.0], e = [16.0, 0.0] }
-member.west = { from = "a", to = "b", theory = "euler-bernoulli", material = "m", section = "s", elements = 12 }
-member.beam = { from = "b", to = "c", theory = "euler-bernoulli", material = "m", section = "s", elements = 24 }
-member.east = { from = "c", to = "e", theory = "euler-bernoulli", material = "m", section = "s", elements = 12 }
-support = { a = ["x", "z"], e = ["x", "z"] }
-load = [{ at = "beam:0.4583333333333333", force = [0.0, -0.14] }, { at = "b", force = [0.0045, 0.0] }]
-monitor = [{ name = "sway", at = "b", component = "x" }]
-path = { step = 0.05, stop = { lambda = [-1.0, 2.0], sway = [-11.0, 11.0] } }
-[[wall]]
-name = "hill"
-side = "below"
-profile = { type = "parabola", apex = [7.8, 14.0], curvature = -0.18 }
-members = ["beam"]
-)";
+const std::string portal_on_hill =
+    title("A portal on a hill") + material("m", 2.1e4) + rectangle("s", 0.28, 0.14) +
+    points({{"a", 0.0, 0.0}, {"b", 0.0, 15.0}, {"c", 16.0, 15.0}, {"e", 16.0, 0.0}}) +
+    member("west", "a", "b", "euler-bernoulli", 12) + member("beam", "b", "c", "euler-bernoulli", 24) +
+    member("east", "c", "e", "euler-bernoulli", 12) + supports({{"a", "x z"}, {"e", "x z"}}) +
+    force("beam:0.4583333333333333", 0.0, -0.14) + force("b", 0.0045, 0.0) + monitor("sway", "b", "x") +
+    path("step = 0.05; stop = { lambda = [-1.0, 2.0], sway = [-11.0, 11.0] }") +
+    wall(
+        "hill",
+        R"(side = "below"; profile = { type = "parabola", apex = [7.8, 14.0], curvature = -0.18 }; members = ["beam"])");
 
 }  // namespace
 
@@ -251,21 +234,15 @@ path = { step = 0.05, jumps = false, branches = "primary", stop = { lambda = [-3
 // Sharp corners have no normal of their own where they hold a column between them, which has turned there; it is drawn
 // through them to its end, where next to nothing of it is left on one side.
 TEST(Verify, KnifeEdgesPressAcrossTheAxis) {
-  expect_confirmed(TracedDeck(R"(
-title = "A column between knife edges"
-material.m = { E = 1.0 }
-section.s = { shape = "general", A = 1e5, I = 1.0 }
-point = { a = [0.0, 0.0], b = [1.0, 0.0] }
-member.column = { from = "a", to = "b", theory = "elastica", material = "m", section = "s", elements = 24 }
-support = { a = ["x", "z"], b = ["z"] }
-load = [{ at = "b", force = [-1.0, 0.0] }]
-wall = [
-  { name = "over", contact_surface = "axis", outline = { type = "polyline", x = [0.6, 0.5, 0.4], z = [0.2, 0.0, 0.2] } },
-  { name = "under", contact_surface = "axis", outline = { type = "polyline", x = [0.4, 0.5, 0.6], z = [-0.2, 0.0, -0.2] } },
-]
-monitor = [{ name = "off", at = "column:0.75", component = "z" }]
-path = { step = 5.0, max_step = 0.05, stop = { off = [-0.6, 0.6] } }
-)"));
+  expect_confirmed(TracedDeck(
+      title("A column between knife edges") + material("m", 1.0) + general_section("s", 1e5, 1.0) +
+      points({{"a", 0.0, 0.0}, {"b", 1.0, 0.0}}) + member("column", "a", "b", "elastica", 24) +
+      supports({{"a", "x z"}, {"b", "z"}}) + force("b", -1.0, 0.0) +
+      wall("over",
+           R"(contact_surface = "axis"; outline = { type = "polyline", x = [0.6, 0.5, 0.4], z = [0.2, 0.0, 0.2] })") +
+      wall("under",
+           R"(contact_surface = "axis"; outline = { type = "polyline", x = [0.4, 0.5, 0.6], z = [-0.2, 0.0, -0.2] })") +
+      monitor("off", "column:0.75", "z") + path("step = 5.0; max_step = 0.05; stop = { off = [-0.6, 0.6] }")));
 }
 
 // The apex of a steep truss gives way sideways alone where its stiffness in that direction, the whole row of it, is
@@ -348,16 +325,11 @@ TEST(Verify, IncrementsAreCheckedAgainstTheirFilesAlone) {
 
 // Differences over 10⁻⁴ of an element would compress one with EA h²/EI = 1.4·10⁵ by 14 EI/h², and it buckles at 10.
 TEST(Verify, SlenderElementsDoNotBuckleInItsSteps) {
-  const TracedDeck traced(R"toml(
-title = "A slender beam of a wavy shape"
-material.m = { E = 1.0 }
-section.s = { shape = "general", A = 2e7, I = 1.0 }
-point = { a = [0.0, 0.0], b = [1.0, 0.0] }
-support = { a = ["x", "z", "rotation"], b = ["z"] }
-member.c = { from = "a", to = "b", theory = "elastica", elements = 12, material = "m", section = "s", imperfection = { shape = "sine", amplitude = 0.01, waves = 3 } }
-load = [{ at = "c:0.25", force = [0.0, 3.0] }]
-path = { step = 0.1, stop = { lambda = [-0.5, 1.0] } }
-)toml");
+  const TracedDeck traced(title("A slender beam of a wavy shape") + material("m", 1.0) +
+                          general_section("s", 2e7, 1.0) + points({{"a", 0.0, 0.0}, {"b", 1.0, 0.0}}) +
+                          supports({{"a", "x z rotation"}, {"b", "z"}}) +
+                          member("c", "a", "b", "elastica", 12, imperfection({{3, 0.01}})) + force("c:0.25", 0.0, 3.0) +
+                          path("step = 0.1; stop = { lambda = [-0.5, 1.0] }"));
   test::expect_whole(traced);
 }
 
