@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include "continuation/corners/friction_ways.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/step/path_constraint.hpp"
 #include "continuation/step/point_on_path.hpp"
-#include "core/algebra/slip_stiffness.hpp"
 #include "core/text.hpp"
 
 namespace arcwall {
@@ -19,261 +18,6 @@ namespace arcwall {
 namespace {
 
 constexpr int most_changes_here = 50;
-constexpr double rate_noise = 1e-10;         // error of rates, relative to the greatest of their kind
-constexpr std::size_t few_contacts = 6;      // whose combinations are all tried
-constexpr std::size_t most_combined = 4096;  // combinations of modes that are tried where nothing else is found
-
-// A contact, and what it may do from here on; the first is what it would do at once where nothing is known: one whose
-// force has vanished opens, one whose gap has closes.
-struct BoundContact {
-  Index contact = 0;
-  std::vector<ContactMode> modes{};
-  bool touches = false;  // without a force
-  bool ended = false;    // its slip has: a stick has the same tangent, along which its friction stays at the bound
-};
-
-// One combination of modes: its equations hold at the corner, and the rates along the direction fulfil the law.
-struct Continuation {
-  std::vector<ModeOfContact> modes{};
-  State state{};
-  Direction direction{};  // unit
-  std::vector<Index> slipping{};
-  Vector relieved{};  // by each slip alone of the friction that drives it [scale of guards]
-  std::optional<Index> unstable{};
-  double dissipation = 0.0;
-};
-
-double bound_tolerance(const TraceTools& tools, const Corner& corner) {
-  return std::max(tools.options.guard_tolerance, 2.0 * corner.slack);
-}
-
-// Whether a guard is zero, or nearly so and zero at a place along the path that coincides with the corner: symmetry
-// lets bounds be reached together, up to round-off.
-bool is_reached(double guard, double rate, double tolerance) {
-  return guard <= tolerance || (guard <= coincidence_tolerance && guard <= -coincidence_tolerance * rate);
-}
-
-// The contacts that stand at a bound: those that touch without a force, those that stick with |T| = μ p, and those that
-// slip, which may stick from here on.
-std::vector<BoundContact> choices_at(const TraceTools& tools, const Corner& corner, std::optional<Index> landed,
-                                     std::optional<Index> ended) {
-  using enum ContactMode;
-  const System& system = tools.system;
-  const FrictionalContact& friction = *system.friction();
-  const ActiveSet& active_set = corner.at.state.active_set;
-  const double tolerance = bound_tolerance(tools, corner);
-  std::vector<BoundContact> choices;
-  const auto contacts = static_cast<Index>(active_set.contacts());
-  for (Index j = 0; j < contacts; ++j) {
-    const ContactMode mode = friction.mode(active_set, j);
-    const bool touches = std::abs(corner.at.guards[j]) <= tolerance || landed == j;
-    if (touches && !system.enforcement(active_set, j).two_sided) {
-      std::vector<ContactMode> modes = friction.is_rough(active_set, j)
-                                           ? std::vector{sticks, open, slips_forward, slips_backward}
-                                           : std::vector{closed, open};
-      if (mode != open) std::swap(modes[0], modes[1]);
-      choices.push_back({.contact = j, .modes = std::move(modes), .touches = true});
-    } else if (slips(mode) && ended == j) {
-      choices.push_back({.contact = j, .modes = {sticks}, .ended = true});
-    } else if (slips(mode)) {
-      choices.push_back({.contact = j, .modes = {mode, sticks}});
-    }
-  }
-  for (Index guard = contacts; guard < corner.at.guards.size(); ++guard) {
-    if (!is_reached(corner.at.guards[guard], corner.at.guard_rates[guard], tolerance) && landed != guard) continue;
-    const auto beyond = friction.beyond_friction_bound(active_set, guard);
-    const auto known = [&](const BoundContact& choice) { return choice.contact == beyond->contact; };
-    if (beyond && std::none_of(choices.begin(), choices.end(), known))
-      choices.push_back({.contact = beyond->contact, .modes = {sticks, beyond->mode}});
-  }
-  return choices;
-}
-
-// The equations of a combination of modes at the corner with their tangent, of either sense; empty where they are
-// singular.
-std::optional<Continuation> tangent_with(TraceTools& tools, const Corner& corner, std::vector<ModeOfContact> modes) {
-  const System& system = tools.system;
-  const FrictionalContact& friction = *system.friction();
-  Continuation way{.modes = std::move(modes)};
-  way.state = friction.with_modes(corner.at.state, way.modes);
-  auto& [now, solver] = tools.corner_workspace;
-  system.linearize(way.state, now);
-  if (!all_finite(now.F)) return std::nullopt;
-  if (solver.factorize(now, system.multiplier_count(way.state.active_set)) == FactorStatus::not_finite)
-    return std::nullopt;
-  const Metric metric = tools.metric_on(way.state.active_set, corner.lambda_scale);
-  Direction across{.dx = system.transfer(corner.at.tangent.dx, corner.at.state.active_set, way.state.active_set),
-                   .dlambda = corner.at.tangent.dlambda};
-  Matrix columns(way.state.x.size(), 1);
-  if (!solver.tangent(metric.row(across), way.direction, columns)) return std::nullopt;
-  way.direction = unit(metric, std::move(way.direction));
-  if (!way.direction.dx.allFinite()) return std::nullopt;
-  way.slipping = friction.slipping(way.state.active_set);
-  const auto slips = static_cast<Index>(way.slipping.size());
-  way.relieved = Vector::Zero(slips);
-  if (slips > 0 && solver.inner_is_regular()) {
-    const Matrix D = slip_stiffness(solver, now);
-    for (Index i = 0; i < slips; ++i) {
-      const Index contact = way.slipping[static_cast<std::size_t>(i)];
-      const Row slip = friction.slip_gradient(way.state, contact);
-      way.relieved[i] = std::abs(D(i, i) * apply(slip, way.direction)) /
-                        system.enforcement(way.state.active_set, contact).force_scale;
-    }
-  }
-  return way;
-}
-
-int sign_of_rate(double value) { return value > 0.0 ? 1 : value < 0.0 ? -1 : 0; }
-
-// 1 where a contact slips on along a way, −1 where it would slip back, 0 where it does neither within the error of
-// rates. A stiff body slips by less than the error of other motions; then what its slip alone relieves tells.
-int sense_of_slip(const FrictionalContact& friction, const Continuation& way, Index contact, double no_motion,
-                  double no_force) {
-  const auto its = std::find(way.slipping.begin(), way.slipping.end(), contact) - way.slipping.begin();
-  const double rate = friction.slip_rate(way.state, way.direction, contact);
-  if (std::abs(rate) <= no_motion && way.relieved[its] <= no_force) return 0;
-  return sign_of_rate(rate);
-}
-
-// What a way violates, and what each contact that does would do instead. A slip is none if it relieves nothing, and
-// still one if its stick is known to be `overcome`: then the two are the same within the error of rates.
-std::vector<ModeOfContact> violations(const TraceTools& tools, const Corner& corner,
-                                      const std::vector<BoundContact>& choices, const Continuation& way,
-                                      const std::set<Index>& overcome) {
-  using enum ContactMode;
-  const System& system = tools.system;
-  const FrictionalContact& friction = *system.friction();
-  const ActiveSet& active_set = way.state.active_set;
-  const auto contacts = static_cast<Index>(active_set.contacts());
-  const GuardsAlong along = system.guards_along(way.state, way.direction);
-  double most_motion = 0.0, most_force = 0.0;
-  for (Index j = 0; j < along.rates.size(); ++j) {
-    const bool is_gap = j < contacts && !active_set[static_cast<std::size_t>(j)];
-    double& most = is_gap ? most_motion : most_force;
-    most = std::max(most, std::abs(along.rates[j]));
-  }
-  for (const Index j : way.slipping)
-    most_motion = std::max(most_motion, std::abs(friction.slip_rate(way.state, way.direction, j)));
-  const double no_motion = rate_noise * most_motion, no_force = rate_noise * most_force;
-  std::vector<ModeOfContact> found;
-  for (const BoundContact& choice : choices) {
-    const Index j = choice.contact;
-    const ContactMode mode = friction.mode(active_set, j);
-    const double rate = along.rates[j];
-    if (mode == open && rate < -no_motion)
-      found.push_back({.contact = j, .mode = friction.is_rough(active_set, j) ? sticks : closed});
-    else if (mode != open && choice.touches && rate < -no_force)
-      found.push_back({.contact = j, .mode = open});
-    else if (slips(mode) && sense_of_slip(friction, way, j, no_motion, no_force) < (overcome.contains(j) ? 0 : 1))
-      found.push_back({.contact = j, .mode = sticks});
-  }
-  const double tolerance = bound_tolerance(tools, corner);
-  for (Index guard = contacts; guard < along.rates.size(); ++guard) {
-    if (!is_reached(along.values[guard], along.rates[guard], tolerance) ||
-        along.rates[guard] >= -tools.options.guard_tolerance * most_force)
-      continue;
-    const auto beyond = friction.beyond_friction_bound(active_set, guard);
-    const auto has_ended = [&](const BoundContact& choice) {
-      return choice.ended && choice.contact == beyond->contact;
-    };
-    if (beyond && std::none_of(choices.begin(), choices.end(), has_ended)) found.push_back(*beyond);
-  }
-  return found;
-}
-
-// −Σ T v, v the rate of slip.
-double dissipation_along(const FrictionalContact& friction, const Continuation& way) {
-  double power = 0.0;
-  for (const Index j : way.slipping) {
-    const double sense = slip_sense(friction.mode(way.state.active_set, j));
-    power -= friction.friction_force(way.state, j) * sense * friction.slip_rate(way.state, way.direction, j);
-  }
-  return power;
-}
-
-// How the structure moves: with all contacts open, of unit length.
-Direction motion_along(const TraceTools& tools, const Corner& corner, const State& state, const Direction& direction) {
-  const ActiveSet open = state.active_set.all_open();
-  return unit(tools.metric_on(open, corner.lambda_scale),
-              {.dx = tools.system.transfer(direction.dx, state.active_set, open), .dlambda = direction.dlambda});
-}
-
-// Of ways that are one motion, that with the fewest slips.
-void add_way(const Metric& open_metric, const TraceTools& tools, const Corner& corner, Continuation way,
-             std::vector<Continuation>& ways) {
-  const Direction motion = motion_along(tools, corner, way.state, way.direction);
-  for (Continuation& known : ways) {
-    const bool same = open_metric.inner(motion_along(tools, corner, known.state, known.direction), motion) > same_way;
-    if (!same || way.slipping.size() == known.slipping.size()) continue;
-    if (way.slipping.size() < known.slipping.size()) known = std::move(way);
-    return;
-  }
-  ways.push_back(std::move(way));
-}
-
-void add_both_senses(TraceTools& tools, const Corner& corner, const std::vector<BoundContact>& choices,
-                     Continuation way, std::vector<Continuation>& ways) {
-  const Metric open_metric = tools.metric_on(corner.at.state.active_set.all_open(), corner.lambda_scale);
-  std::set<Index> all;
-  for (const BoundContact& choice : choices) all.insert(choice.contact);
-  for (int sense = 0; sense < 2; ++sense) {
-    if (sense == 1) way.direction = reversed(std::move(way.direction));
-    if (violations(tools, corner, choices, way, all).empty()) add_way(open_metric, tools, corner, way, ways);
-  }
-}
-
-std::vector<Continuation> every_way(TraceTools& tools, const Corner& corner, const std::vector<BoundContact>& choices) {
-  std::vector<Continuation> ways;
-  std::vector<std::size_t> at(choices.size(), 0);
-  for (;;) {
-    std::vector<ModeOfContact> modes;
-    for (std::size_t i = 0; i < choices.size(); ++i)
-      modes.push_back({.contact = choices[i].contact, .mode = choices[i].modes[at[i]]});
-    if (auto way = tangent_with(tools, corner, std::move(modes)))
-      add_both_senses(tools, corner, choices, std::move(*way), ways);
-    std::size_t i = 0;
-    while (i < at.size() && ++at[i] == choices[i].modes.size()) at[i++] = 0;
-    if (i == at.size()) return ways;
-  }
-}
-
-// Of many contacts, by block principal pivoting (Júdice and Pires 1994): all that violate the law change what they do,
-// as long as they become fewer; else the last of them alone, which ends where each combination has one solution
-// (Murty).
-std::vector<Continuation> one_way(TraceTools& tools, const Corner& corner, const std::vector<BoundContact>& choices,
-                                  double sense) {
-  constexpr int most_blocks = 10;  // in a row, without fewer violations
-  const std::size_t most_rounds = 20 * choices.size();
-  std::vector<ModeOfContact> modes;
-  for (const BoundContact& choice : choices) modes.push_back({.contact = choice.contact, .mode = choice.modes.front()});
-  std::size_t fewest = choices.size() + 1;
-  int blocks = most_blocks;
-  std::set<Index> overcome;
-  for (std::size_t round = 0; round < most_rounds; ++round) {
-    auto way = tangent_with(tools, corner, modes);
-    if (!way) return {};
-    if (way->direction.dlambda * sense < 0.0) way->direction = reversed(std::move(way->direction));
-    auto wrong = violations(tools, corner, choices, *way, overcome);
-    if (wrong.empty()) return {std::move(*way)};
-    if (wrong.size() < fewest) {
-      fewest = wrong.size();
-      blocks = most_blocks;
-    } else if (blocks > 0) {
-      --blocks;
-    } else {
-      wrong = {*std::max_element(wrong.begin(), wrong.end(),
-                                 [](const ModeOfContact& a, const ModeOfContact& b) { return a.contact < b.contact; })};
-    }
-    for (const ModeOfContact& change : wrong) {
-      const auto its = std::find_if(modes.begin(), modes.end(),
-                                    [&](const ModeOfContact& mode) { return mode.contact == change.contact; });
-      if (its == modes.end()) return {};
-      its->mode = change.mode;
-      if (slips(change.mode)) overcome.insert(change.contact);
-    }
-  }
-  return {};
-}
 
 // The sign of the determinant of the equations times that of the rate of λ, which goes on through a corner.
 std::optional<int> orientation(std::optional<Index> negative, const Direction& direction) {
@@ -376,6 +120,121 @@ void meet_bounds(TraceTools& tools, Corner& corner) {
   corner.at.guards = system.guards(corner.at.state);
 }
 
+// Why the path ends at a corner whatever leads on: it is never left, or what its contacts do is not modelled.
+std::optional<BranchEnd> end_at(const TraceTools& tools, const Corner& corner, const std::vector<BoundContact>& choices,
+                                const std::string& place) {
+  if (corner.without_progress > most_changes_here)
+    return BranchEnd{
+        .reason = EndReason::no_continuation,
+        .detail = with_place("the contacts change again and again at one point; use more elements", place)};
+  const FrictionalContact& friction = *tools.system.friction();
+  const ActiveSet& active_set = corner.at.state.active_set;
+  if (would_hold_twice(friction, active_set, choices))
+    return BranchEnd{.reason = EndReason::not_modelled,
+                     .detail = with_place("two frictions at one end are not determined by equilibrium", place)};
+  for (const BoundContact& choice : choices) {
+    if (!choice.touches) continue;
+    if (std::string why = friction.why_not_modelled(active_set, choice.contact); !why.empty())
+      return BranchEnd{.reason = EndReason::not_modelled, .detail = with_place(std::move(why), place)};
+  }
+  return std::nullopt;
+}
+
+// How ways on lie to the direction in which the path comes to the corner.
+class Incoming {
+ public:
+  Incoming(const TraceTools& tools, const Corner& corner)
+      : tools_(tools),
+        corner_(corner),
+        metric_(tools.metric_on(corner.at.state.active_set.all_open(), corner.lambda_scale)),
+        motion_(motion_along(tools, corner, corner.at.state, corner.at.tangent)) {
+    const std::optional<Index> before =
+        corner.at.negative_eigenvalues ? corner.at.negative_eigenvalues : corner.before.unstable;
+    if (!corner.begins_branch) orientation_ = orientation(before, corner.at.tangent);
+  }
+
+  double cosine(const Continuation& way) const {
+    return metric_.inner(motion_along(tools_, corner_, way.state, way.direction), motion_);
+  }
+  bool turns_over(const Continuation& way) const {
+    const auto turned = orientation(way.unstable, way.direction);
+    return orientation_ && turned && *orientation_ != *turned;
+  }
+
+ private:
+  const TraceTools& tools_;
+  const Corner& corner_;
+  Metric metric_;
+  Direction motion_;
+  std::optional<int> orientation_{};
+};
+
+// Leaves those of the ways on which the path may take; `ended`: the slip that ends at the corner.
+void keep_fit(TraceTools& tools, const Corner& corner, const std::vector<BoundContact>& choices, double sense,
+              std::optional<Index> ended, const Incoming& incoming, std::vector<Continuation>& ways) {
+  std::erase_if(ways, [&](const Continuation& way) {
+    return (!corner.begins_branch && incoming.cosine(way) < -same_way) || unloads(way, choices, sense);
+  });
+  for (Continuation& way : ways) way.unstable = tools.counter.negative_on(way.state);
+  // A stick has the tangent of the slip that ends, and leaves its bound by −½ D v′ s² (18.4a): D < 0 turns over.
+  if (ended)
+    std::erase_if(ways,
+                  [&](const Continuation& way) { return incoming.cosine(way) > same_way && incoming.turns_over(way); });
+  const auto turns = [&](const Continuation& way) { return way.direction.dlambda * sense < 0.0; };
+  if (corner.begins_branch && !std::all_of(ways.begin(), ways.end(), turns)) std::erase_if(ways, turns);
+}
+
+BranchEnd none_leads_on(const std::vector<BoundContact>& choices, bool all_known, const std::string& place) {
+  if (!all_known)
+    return {.reason = EndReason::no_continuation,
+            .detail = with_place("of " + std::to_string(choices.size()) +
+                                     " contacts that may stick, slip or open here no motion was found in which "
+                                     "friction opposes slip",
+                                 place)};
+  return {.reason = EndReason::jammed,
+          .detail = with_place("no motion in which friction opposes slip leads on: the load can go no further "
+                               "in this sense; let a stage drive back, or lower the friction",
+                               place)};
+}
+
+// The first by rank; each is told what it dissipates.
+const Continuation& best_of(const FrictionalContact& friction, double sense, const Incoming& incoming,
+                            std::vector<Continuation>& ways) {
+  std::optional<FrictionRank> best;
+  std::size_t chosen = 0;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    Continuation& way = ways[i];
+    way.dissipation = dissipation_along(friction, way);
+    const bool goes_on = way.direction.dlambda * sense > 0.0;
+    const FrictionRank rank{.turns_over = incoming.turns_over(way),
+                            .kind = !goes_on                   ? 2
+                                    : way.unstable == Index{0} ? 0
+                                                               : 1,
+                            .unstable = way.unstable.value_or(std::numeric_limits<Index>::max()),
+                            .less_dissipation = -way.dissipation,
+                            .backward = -incoming.cosine(way)};
+    if (best && !(rank < *best)) continue;
+    best = rank;
+    chosen = i;
+  }
+  return ways[chosen];
+}
+
+// The corner as the first point of a way on; empty where that is no equilibrium. Bounds that were reached together but
+// for an error are met by all from here on.
+std::optional<PathPoint> first_of(TraceTools& tools, const Corner& corner, const Continuation& way) {
+  const Metric metric = tools.metric_on(way.state.active_set, corner.lambda_scale);
+  CorrectorResult result = held_at_corner(tools, corner, metric, way.state, way.direction);
+  if (!result.converged()) return std::nullopt;
+  PathPoint at = path_point(tools.system, metric, std::move(result), way.direction);
+  decide_count(tools, at);
+  at.arc = corner.at.arc;
+  at.iterations = corner.at.iterations;
+  at.count = tools.counter.count(at.state, at.negative_eigenvalues);
+  if (way.unstable) at.count.unstable = way.unstable;  // contacts that touch without a force hold along the way
+  return at;
+}
+
 }  // namespace
 
 std::vector<EventDetector> slip_end_detectors(const System& system) {
@@ -444,107 +303,29 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
   CornerPassed passed{.at = corner.at, .without_progress = corner.without_progress};
   const std::vector<BoundContact> choices = choices_at(tools, corner, landed, ended);
   const std::string place = event_place(tools, corner, choices);
-  if (corner.without_progress > most_changes_here) {
-    passed.end = {.reason = EndReason::no_continuation,
-                  .detail = with_place("the contacts change again and again at one point; use more elements", place)};
-    return passed;
-  }
-  if (would_hold_twice(*tools.system.friction(), corner.at.state.active_set, choices)) {
-    passed.end = {.reason = EndReason::not_modelled,
-                  .detail = with_place("two frictions at one end are not determined by equilibrium", place)};
-    return passed;
-  }
-  for (const BoundContact& choice : choices) {
-    if (!choice.touches) continue;
-    std::string why = tools.system.friction()->why_not_modelled(corner.at.state.active_set, choice.contact);
-    if (why.empty()) continue;
-    passed.end = {.reason = EndReason::not_modelled, .detail = with_place(std::move(why), place)};
-    return passed;
-  }
-  const double sense = corner.at.tangent.dlambda < 0.0 ? -1.0 : 1.0;
-  std::size_t combined = 1;
-  for (const BoundContact& choice : choices) combined = std::min(combined * choice.modes.size(), most_combined + 1);
-  bool all_known = choices.size() <= few_contacts;
-  std::vector<Continuation> ways;
-  if (!all_known) ways = one_way(tools, corner, choices, sense);
-  if (ways.empty() && combined <= most_combined) {
-    ways = every_way(tools, corner, choices);
-    all_known = true;
-  }
-  if (ways.empty() && !all_known) ways = one_way(tools, corner, choices, -sense);
+  passed.end = end_at(tools, corner, choices, place);
+  if (passed.end) return passed;
 
-  const Direction incoming = motion_along(tools, corner, corner.at.state, corner.at.tangent);
-  const Metric open_metric = tools.metric_on(corner.at.state.active_set.all_open(), corner.lambda_scale);
-  const auto cosine = [&](const Continuation& way) {
-    return open_metric.inner(motion_along(tools, corner, way.state, way.direction), incoming);
-  };
-  std::erase_if(ways, [&](const Continuation& way) {
-    return (!corner.begins_branch && cosine(way) < -same_way) || unloads(way, choices, sense);
-  });
-  const std::optional<Index> before =
-      corner.at.negative_eigenvalues ? corner.at.negative_eigenvalues : corner.before.unstable;
-  const auto oriented = corner.begins_branch ? std::nullopt : orientation(before, corner.at.tangent);
-  const auto turns_over = [&](const Continuation& way) {
-    const auto turned = orientation(way.unstable, way.direction);
-    return oriented && turned && *oriented != *turned;
-  };
-  for (Continuation& way : ways) way.unstable = tools.counter.negative_on(way.state);
-  // A stick has the tangent of the slip that ends, and leaves its bound by −½ D v′ s² (18.4a): D < 0 turns over.
-  if (ended) std::erase_if(ways, [&](const Continuation& way) { return cosine(way) > same_way && turns_over(way); });
-  const auto turns = [&](const Continuation& way) { return way.direction.dlambda * sense < 0.0; };
-  if (corner.begins_branch && !std::all_of(ways.begin(), ways.end(), turns)) std::erase_if(ways, turns);
-  if (ways.empty() && !all_known) {
-    passed.end = {.reason = EndReason::no_continuation,
-                  .detail = with_place("of " + std::to_string(choices.size()) +
-                                           " contacts that may stick, slip or open here no motion was found in which "
-                                           "friction opposes slip",
-                                       place)};
-    return passed;
-  }
+  const double sense = corner.at.tangent.dlambda < 0.0 ? -1.0 : 1.0;
+  auto [ways, all_known] = ways_on(tools, corner, choices, sense);
+  const Incoming incoming(tools, corner);
+  keep_fit(tools, corner, choices, sense, ended, incoming, ways);
   if (ways.empty()) {
-    passed.end = {.reason = EndReason::jammed,
-                  .detail = with_place("no motion in which friction opposes slip leads on: the load can go no further "
-                                       "in this sense; let a stage drive back, or lower the friction",
-                                       place)};
+    passed.end = none_leads_on(choices, all_known, place);
     return passed;
   }
-  std::optional<FrictionRank> best;
-  std::size_t chosen = 0;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    Continuation& way = ways[i];
-    way.dissipation = dissipation_along(*tools.system.friction(), way);
-    const bool goes_on = way.direction.dlambda * sense > 0.0;
-    const FrictionRank rank{.turns_over = turns_over(way),
-                            .kind = !goes_on                   ? 2
-                                    : way.unstable == Index{0} ? 0
-                                                               : 1,
-                            .unstable = way.unstable.value_or(std::numeric_limits<Index>::max()),
-                            .less_dissipation = -way.dissipation,
-                            .backward = -cosine(way)};
-    if (best && !(rank < *best)) continue;
-    best = rank;
-    chosen = i;
-  }
-  const Continuation& taken = ways[chosen];
-  const Metric metric = tools.metric_on(taken.state.active_set, corner.lambda_scale);
-  // Bounds that were reached together but for an error are met by all from here on.
-  CorrectorResult result = held_at_corner(tools, corner, metric, taken.state, taken.direction);
-  if (!result.converged()) {
+  const Continuation& taken = best_of(*tools.system.friction(), sense, incoming, ways);
+  std::optional<PathPoint> at = first_of(tools, corner, taken);
+  if (!at) {
     passed.end = {.reason = EndReason::singular, .detail = with_place(nothing_behind_change, place)};
     return passed;
   }
-  PathPoint at = path_point(tools.system, metric, std::move(result), taken.direction);
-  decide_count(tools, at);
-  at.arc = corner.at.arc;
-  at.iterations = corner.at.iterations;
-  at.count = tools.counter.count(at.state, at.negative_eigenvalues);
-  if (taken.unstable) at.count.unstable = taken.unstable;  // contacts that touch without a force hold along the way
-  Event event{.state = at.state,
-              .arc = at.arc,
+  Event event{.state = at->state,
+              .arc = at->arc,
               .residual = corner.at.residual,
               .lambda_uncertainty = 0.0,
               .unstable_before = corner.before.unstable,
-              .unstable_after = at.count.unstable,
+              .unstable_after = at->count.unstable,
               .all_ways_known = all_known};
   for (const Continuation& way : ways)
     event.friction_ways.push_back({.modes = way.modes,
@@ -552,12 +333,12 @@ CornerPassed turn_friction_corner(TraceTools& tools, Corner corner, std::optiona
                                    .dissipation = way.dissipation,
                                    .unstable = way.unstable,
                                    .taken = &way == &taken});
-  passed.events = events_between(tools, corner, at, event);
+  passed.events = events_between(tools, corner, *at, event);
   for (const Event& change : passed.events)
     event.guards.insert(event.guards.end(), change.guards.begin(), change.guards.end());
-  passed.signs = signs_at(tools.detectors, at);
+  passed.signs = signs_at(tools.detectors, *at);
   if (!corner.begins_branch) add_turns(tools, corner.signs, passed.signs, event, passed.events);
-  passed.at = std::move(at);
+  passed.at = std::move(*at);
   return passed;
 }
 
