@@ -471,15 +471,14 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
 
 namespace {
 
-// Where the stress-free structure is deepest in a wall, or nearest to it: at nodes and between them, where a wall may
-// be narrower than an element.
+// Where the stress-free structure is deepest in a wall, or nearest to it.
 struct LeastGap {
   double gap = infinity;
   Vec2 normal = Vec2::Zero();  ///< of the wall there, into the free side
 };
 
-LeastGap least_gap(const deck::Wall& wall, const Structure& structure) {
-  constexpr int parts = 100;  // of an element
+// At nodes, and at places between them that divide an element into so many parts.
+LeastGap least_gap(const deck::Wall& wall, const Structure& structure, int parts) {
   const State rest{.x = Vector::Zero(structure.size({}))};
   LeastGap least;
   for (const MemberMesh& mesh : structure.members()) {
@@ -514,10 +513,13 @@ deck::Deck with_walls_of_ramp(deck::Deck deck, const Structure& structure) {
     wall.motion.reset();
     if (wall.interference == 0.0) continue;
     const double drawn = drawn_to * structure.length_scale();
-    const LeastGap deepest = least_gap(wall, structure);
+    const bool grows = !deck::has_friction(deck) && is_enclosed(deck, wall);
+    // A wall may be narrower than an element; one that grows is touched at nodes, and the chords between them are no
+    // part of an arc.
+    const LeastGap deepest = least_gap(wall, structure, grows ? 1 : 100);
     const double back =
         -deepest.gap <= wall.interference + drawn ? std::max(wall.interference, -deepest.gap) : wall.interference;
-    if (!deck::has_friction(deck) && is_enclosed(deck, wall))
+    if (grows)
       wall.retracted = back;
     else
       wall.motion = deck::WallMotion{.x = back * deepest.normal.x(),
