@@ -81,9 +81,15 @@ CorrectorResult arrive(TraceTools& tools, const Transition& transition, const Pa
                        Effort effort) {
   constexpr double distance = 0.1;  // a generous guess [path metric]
   const auto corrected = [&](const State& guess, const PathConstraint& constraint) {
-    return effort == Effort::patient
-               ? tools.corrector.correct_patiently(guess, constraint, ahead.metric, ahead.along, distance)
-               : tools.corrector.correct(guess, constraint, ahead.metric, ahead.along, distance);
+    CorrectorResult result =
+        effort == Effort::patient
+            ? tools.corrector.correct_patiently(guess, constraint, ahead.metric, ahead.along, distance)
+            : tools.corrector.correct(guess, constraint, ahead.metric, ahead.along, distance);
+    // A new mesh moves the path by next to nothing, but where nothing resists a correction may go anywhere.
+    const bool stays = transition.change == Transition::Change::remeshed;
+    if (result.converged() && stays && !(ahead.metric.distance(result.state, guess) <= distance))
+      result.status = CorrectorStatus::diverged;
+    return result;
   };
   const State& guess = transition.guess.get();
   const auto in_plane = [&] { return corrected(guess, PlaneConstraint(ahead.metric, guess, ahead.along, 0.0)); };
