@@ -252,6 +252,13 @@ std::vector<Transition> SlidingContact::transitions(const State& state, const Di
     if (transition.change == Transition::Change::unsupported) return false;
     const ActiveSet& ahead = transition.guess.get().active_set;
     if (ahead.layout() != nullptr) why = sliding::why_friction_is_not_modelled(*setting_, ahead);
+    const auto is_without_force = [&](Index j) {
+      return coefficient(state.active_set, j) > 0.0 &&
+             at.force(static_cast<std::size_t>(j)) <= sliding::reached_surely * scales().force;
+    };
+    if (why.empty() && transition.change == Transition::Change::spreads &&
+        std::any_of(transition.contacts.begin(), transition.contacts.end(), is_without_force))
+      why = "a member touches a rough wall all along a part at once, which is not modelled with moving contact points";
     return !why.empty();
   };
   if (const auto first = std::find_if(transitions.begin(), transitions.end(), is_unmodelled);

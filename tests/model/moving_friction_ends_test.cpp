@@ -200,4 +200,23 @@ TEST(MovingFrictionEnds, MirrorImagesGatherAlike) {
   }
 }
 
+// A straight strip that comes down flat on a table whose edge is below its middle: without pressure no edge of the zone
+// says where it ends.
+TEST(MovingFrictionEnds, AStripThatTouchesAllAlongAPartIsNotModelled) {
+  const auto lowered = [](int elements, double edge, const std::string& drive, const std::string& motion) {
+    return material("m", 1e4) + rectangle("s", 0.1, 0.05) + points({{"a", 0.0, 0.0}, {"b", -1.0, 0.0}}) +
+           member("m", "a", "b", "elastica", elements) + supports({{"a", "x z rotation"}}) + moving + drive +
+           wall("table", fmt::format("outline = {{ type = \"polyline\", points = [[-3.0, -0.05], [{}, -0.05]] }}; {}{}",
+                                     edge, rough(0.3), motion)) +
+           path("step = 0.02; stop = { lambda = [-1.0, 0.06] }");
+  };
+  const std::string clamp = prescribed("a", "z = -1.0");
+  for (const std::string& deck :
+       {lowered(6, -0.5, clamp, ""), lowered(8, -0.6, clamp, ""), lowered(8, -0.6, "", "; motion = { z = 1.0 }")}) {
+    const Session run = run_of(deck);
+    EXPECT_EQ(reason(run), EndReason::not_modelled);
+    EXPECT_NEAR(run.points().back().lambda, 0.05, 1e-12);
+  }
+}
+
 }  // namespace arcwall::friction_test
