@@ -132,6 +132,8 @@ void check_path_row(const Row& row, const RecordPoint& point, const PathExpectat
   }
   expect_same("path.csv matches the states", rest[0], point.count.unstable ? std::to_string(*point.count.unstable) : "",
               "unstable", findings);
+  expect_same("path.csv matches the states", rest[1], std::string(to_text(point.count.stability)), "stability",
+              findings);
   expect_same("path.csv matches the states", rest[2], std::to_string(expected.contacts), "contacts", findings);
   if (expected.energy)
     findings.compare("path.csv matches the states", std::abs(number(rest[3]) - expected.energy->value),
@@ -162,6 +164,11 @@ void check_friction_cells(const Row& row, const std::string& name, const Contact
   expect_same(check, row[10], std::string(to_text(friction.mode)), "state of " + name, findings);
   findings.compare(check, std::abs(number(row[11]) - factor * friction.slip), rounding(model.size()),
                    "slip of " + name);
+  if (friction.anchor)
+    findings.compare(check, std::abs(number(row[12]) - model.frame().place(contact.place).x()), rounding(model.size()),
+                     "anchor of " + name);
+  else
+    expect_same(check, row[12], "", "anchor of " + name, findings);
 }
 
 // branch, step, lambda, wall, member, fraction, x, force, pressure of a contact that is `force` by other means

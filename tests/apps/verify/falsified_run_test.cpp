@@ -9,6 +9,7 @@
 #include "core/text.hpp"
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/stored_files_of.hpp"
+#include "tests/model/friction_decks.hpp"
 
 namespace arcwall::verify::falsified_run_test {
 
@@ -167,6 +168,8 @@ TEST_F(FalsifiedRun, ADigitOfPathCsvIsCaught) {
   const Failure lambda = first_failure(&StoredFiles::path_csv, "," + round_trip(last.lambda) + ",",
                                        "," + round_trip(std::nextafter(last.lambda, 0.0)) + ",");
   EXPECT_EQ(lambda.what, "path.csv matches the states: lambda");
+  EXPECT_EQ(first_failure(&StoredFiles::path_csv, ",stable,", ",stablex,").what,
+            "path.csv matches the states: stability is \"stablex\" instead of \"stable\"");
   EXPECT_EQ(first_failure(&StoredFiles::path_csv, ",end\n", ",\n").what,
             "path.csv matches the states: event is \"\" instead of \"end\"");
 }
@@ -180,6 +183,24 @@ TEST_F(FalsifiedRun, ADigitOfContactsCsvIsCaught) {
   EXPECT_NE(first.what.find("force of " + last.label.wall), std::string::npos) << first.what;
   const Failure wall = first_failure(&StoredFiles::contacts_csv, last.label.wall, "other");
   EXPECT_NE(wall.what.find("wall of "), std::string::npos) << wall.what;
+}
+
+// What sticks has the place where it does.
+TEST(FalsifiedFrictionRun, AnAnchorThatSaysSomethingElseIsCaught) {
+  using namespace friction_test;
+  const TracedDeck traced(title("A strip that sticks") +
+                          strip(0.8, stage("press", "prescribed.0", 0.0005, -1.0, 0.001)));
+  const Record& record = traced.record();
+  StoredFiles files = stored_files_of(record);
+  ASSERT_FALSE(verify(traced.model(), record, files, "checkpoint").findings.first().has_value());
+  const std::optional<double> anchor = record.points.back().forces.back().friction->anchor;
+  ASSERT_TRUE(anchor);
+  const std::string told = "," + round_trip(*anchor) + "\n";
+  files.contacts_csv.replace(files.contacts_csv.rfind(told), told.size(), ",0.123\n");
+  const auto first = verify(traced.model(), record, files, "checkpoint").findings.first();
+  ASSERT_TRUE(first.has_value());
+  EXPECT_EQ(first->file, "contacts.csv");
+  EXPECT_NE(first->what.find("anchor of floor"), std::string::npos) << first->what;
 }
 
 TEST_F(FalsifiedRun, AnEventThatSaysSomethingElseIsCaught) {
