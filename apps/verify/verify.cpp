@@ -159,17 +159,23 @@ std::vector<std::string> left_out(const Model& model, Index uncounted, bool move
   return sentences;
 }
 
-// Friction opposes slip: what slips at two points that follow each other has slipped against its friction force.
-// check_energy_balance() looks at the material points on compliant walls.
+// Friction opposes slip: what slips at two points that follow each other has slipped against its friction force. Where
+// contact moves along a body whose stretch changes on the way, the length that it has passed is known between two
+// bounds. check_energy_balance() looks at the material points on compliant walls.
 void check_slips(const Model& model, const RecordPoint& before, const RecordPoint& after, Findings& findings) {
-  if (!deck::has_friction(model.deck()) || before.state.active_set != after.state.active_set) return;
-  const std::vector<ContactPoint> from = model.contacts()->closed_contacts(before.state),
-                                  to = model.contacts()->closed_contacts(after.state);
-  for (std::size_t i = 0; i < to.size(); ++i) {
-    if (!to[i].friction || !slips(to[i].friction->mode)) continue;
-    const double way = slip_sense(to[i].friction->mode) * (to[i].friction->slip - from[i].friction->slip);
-    findings.compare("friction opposes slip", -way, 1e-9 * model.structure().length_scale(),
-                     to[i].label.wall + " at " + to[i].label.member);
+  const FrictionalContact* const contacts = model.friction();
+  const ActiveSet& active_set = after.state.active_set;
+  if (contacts == nullptr || before.state.active_set != active_set) return;
+  for (const Index j : contacts->slipping(active_set)) {
+    const ContactPlace from = contacts->place(before.state, j), to = contacts->place(after.state, j);
+    double way = to.w - from.w, unsure = 0.0;
+    if (contacts->rolls(active_set, j)) {
+      way -= 0.5 * (from.stretch + to.stretch) * (to.s - from.s);
+      unsure = 0.5 * std::abs((to.stretch - from.stretch) * (to.s - from.s));
+    }
+    const ContactLabel label = model.contacts()->contact(after.state, j).label;
+    findings.compare("friction opposes slip", -slip_sense(contacts->mode(active_set, j)) * way,
+                     1e-9 * model.structure().length_scale() + unsure, label.wall + " at " + label.member);
   }
 }
 

@@ -97,4 +97,18 @@ TEST(EnergyBalance, WrongDissipationIsCaught) {
   EXPECT_NE(first_failure(traced, fallen).find("dissipation never falls"), std::string::npos);
 }
 
+// The stretch of a beam over a round prop falls while its contact goes on slipping, far from where it stuck.
+TEST(EnergyBalance, FrictionOpposesSlipWhileTheStretchChanges) {
+  const TracedDeck traced(
+      title("A propped beam") + material("m", 1e4) + rectangle("s", 0.1, 0.05) +
+      points({{"a", 0.0, 0.0}, {"b", 1.0, 0.0}}) + member("m", "a", "b", "elastica", 20) +
+      supports({{"a", "x z rotation"}, {"b", "z"}}) + moving_contact +
+      wall("prop",
+           R"(side = "below"; profile = { type = "circle", centre = [0.45, -0.42], radius = 0.4 }; )" + rough(0.3)) +
+      force("m:0.5", 0.2, -1.0) + force("b", -1.0, 0.0) + path(R"(branches = "primary")") +
+      stage("press", "load.0", 0.02, -1.0, 0.5) + stage("push", "load.1", 0.02, -1.0, 0.6) +
+      stage("pull", "load.1", -0.02, -1.2, 1.0) + stage("lift", "load.0", -0.02, -0.3, 1.0));
+  test::expect_whole(traced);
+}
+
 }  // namespace arcwall::verify::energy_balance_test
