@@ -27,9 +27,10 @@ std::optional<Matrix> flexibility(const SegmentSamples& on, const PathSample& sa
   return Matrix(0.5 * (product + product.transpose()));
 }
 
+constexpr double near = 50.0;  // times the least eigenvalue: those of critical modes
+
 // The modes at the sample reached last whose eigenvalues, with Q of (1), are near zero.
 Matrix critical_modes(const SegmentSamples& on, const PathSample& sample) {
-  constexpr double near = 50.0;  // times the least eigenvalue
   // (1) holds for any modes near these.
   const auto pairs = on.corrector.near_null(sample.state, on.metric.weights(), on.pairs, Convergence::loose);
   if (!pairs || pairs->vectors->cols() == 0 || !pairs->vectors->allFinite()) return {};
@@ -54,16 +55,30 @@ std::optional<double> eigenvalue_of_order(const Vector& near, Index negative, In
   return std::nullopt;
 }
 
-// S of (1) at the sample reached last; `modes` are set if they are empty.
+// S of (2) at the sample reached last; `modes` are set if they are empty.
+std::optional<Matrix> matrix_of_pairs(const SegmentSamples& on, const PathSample& sample, Matrix& modes) {
+  const auto pairs = on.corrector.near_null(sample.state, on.metric.weights(), on.pairs);
+  if (!pairs || pairs->vectors->cols() == 0 || !pairs->vectors->allFinite()) return std::nullopt;
+  const Vector size = pairs->values.cwiseAbs();
+  const Index critical = (size.array() <= near * size.minCoeff()).count();
+  if (modes.cols() == 0) modes = pairs->vectors->leftCols(critical);
+  const Matrix parts = modes.transpose() * on.metric.weights().head(modes.rows()).asDiagonal() * *pairs->vectors;
+  const Matrix inverse = parts * pairs->values.cwiseInverse().asDiagonal() * parts.transpose();
+  return Matrix(inverse.inverse());
+}
+
+// S of (1) or (2) at the sample reached last; `modes` are set if they are empty.
 std::optional<Matrix> test_matrix(const SegmentSamples& on, const PathSample& sample, Vanishing what, Index order,
                                   Matrix& modes) {
   if (what == Vanishing::turning) return Matrix::Constant(1, 1, sample.tangent.dlambda / on.metric.lambda_scale());
-  if (!on.corrector.factorized().equations().is_symmetric()) {
+  const bool has_border = !on.corrector.factorized().equations().is_symmetric();
+  if (has_border && on.changes == 1) {
     const auto eigen = on.corrector.near_null(sample.state, on.metric.weights(), on.pairs);
     const auto value =
         eigen && sample.negative ? eigenvalue_of_order(eigen->values, *sample.negative, order) : std::nullopt;
     return value ? std::optional(Matrix(Matrix::Constant(1, 1, *value))) : std::nullopt;
   }
+  if (has_border || on.turns) return matrix_of_pairs(on, sample, modes);
   if (modes.cols() == 0) modes = critical_modes(on, sample);
   if (modes.cols() == 0) return std::nullopt;
   const auto inverse = flexibility(on, sample, modes);

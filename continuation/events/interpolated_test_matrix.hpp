@@ -31,7 +31,9 @@ struct SegmentSamples {
   const Segment& segment;
   const Metric& metric;
   std::vector<PathSample> seen{};
-  Index pairs = 4;  ///< eigenpairs nearest zero that a test matrix is made of, at most
+  Index pairs = 4;     ///< eigenpairs nearest zero that a test matrix is made of, at most
+  Index changes = 1;   ///< how many eigenvalues change their sign
+  bool turns = false;  ///< λ does
 };
 
 /// The path across the segment's chord at t, which is remembered. Empty where there is none, and where it lies so far
@@ -45,6 +47,12 @@ std::optional<PathSample> sample_at(SegmentSamples& on, double t);
 ///
 /// t the unit tangent, t_λ over λ₀ and not negative at the first point, B the critical modes at one of the points. Q
 /// has the eigenvalue t_λ along t_x: at a limit point it takes out of K⁻¹ what is infinite there.
+///
+/// With a border, and where λ turns, it is made of eigenpairs (μ, φ), with limit points among its zeros:
+///
+///   S = (Bᵀ W Σ φ φᵀ/μ W B)⁻¹                                                                                   (2)
+///
+/// With a border it is μ itself where one alone changes its sign.
 class InterpolatedTestMatrix {
  public:
   static constexpr std::size_t nodes = 4;
@@ -78,7 +86,7 @@ class InterpolatedTestMatrix {
 };
 
 /// S from four points around `centre`. Empty if one of them is not found. `order`: of a system with a border, that of
-/// the eigenvalue looked for, the least of all being the first; 0: the greatest negative one.
+/// the one eigenvalue looked for, the least of all being the first; 0: the greatest negative one.
 std::optional<InterpolatedTestMatrix> test_matrix_around(SegmentSamples& on, double centre, double spread,
                                                          Vanishing what, Index order);
 

@@ -154,6 +154,30 @@ void add_branch_point_at_limit(TraceTools& tools, const StepOrigin& origin, cons
   limit.branching = std::move(branching);
 }
 
+// Where λ turns an eigenvalue passes zero. If another passes zero at the same place, Newton's method is at a loss
+// there, as at any branch point, and the place is interpolated as theirs are. Empty where no such place is found.
+std::optional<LocatedEvent> locate_multiple_turn(TraceTools& tools, const StepOrigin& origin, const Segment& segment) {
+  const Index before = *origin.from.negative_eigenvalues, after = *segment.to().negative_eigenvalues;
+  if (std::abs(after - before) < 2) return std::nullopt;
+  for (const SingularPlace& place : find_count_changes(tools.corrector, segment, origin.metric, before, after)) {
+    if (place.multiplicity == 1) continue;
+    const Sides sides = sides_of(tools, origin, segment, place.t);
+    const PathPoint& first = sides.before ? *sides.before : segment.from();
+    const PathPoint& last = sides.after ? *sides.after : segment.to();
+    if (first.tangent.dlambda * last.tangent.dlambda < 0.0)
+      return LocatedEvent{
+          .place = {.what = EventPlace::What::detector, .which = 0, .t = place.t, .half_width = place.half_width},
+          .point = point_at(tools, origin, place)};
+  }
+  return std::nullopt;
+}
+
+LocatedEvent locate_turn(TraceTools& tools, const StepOrigin& origin, const Segment& segment) {
+  if (auto multiple = locate_multiple_turn(tools, origin, segment)) return std::move(*multiple);
+  return locate(tools, origin, {.what = EventPlace::What::detector, .which = 0, .t = 0.5, .half_width = 0.0},
+                segment.to());
+}
+
 }  // namespace
 
 // A limit point changes the count by one, right there; what else changes it are branch points: those before it come
@@ -162,8 +186,7 @@ void add_branch_point_at_limit(TraceTools& tools, const StepOrigin& origin, cons
 SingularSearch find_limit_point(TraceTools& tools, const StepOrigin& origin, const PathPoint& to) {
   const Segment segment(origin.metric, origin.point(), to);
   const Index count_before = *origin.from.negative_eigenvalues, count_after = *to.negative_eigenvalues;
-  LocatedEvent limit =
-      locate(tools, origin, {.what = EventPlace::What::detector, .which = 0, .t = 0.5, .half_width = 0.0}, to);
+  LocatedEvent limit = locate_turn(tools, origin, segment);
   if (!limit.point) return {.clear = false, .failure = limit.failure};
   const double L = segment.length();
   const Index whole = count_after - count_before;

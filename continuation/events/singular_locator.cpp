@@ -189,7 +189,9 @@ std::vector<SingularPlace> find_count_changes(Corrector& corrector, const Segmen
   const auto bracket = bisect(on, before, after);
   // No point of the path between the ends: they may lie on different branches, which shorter steps will show.
   if (!bracket) return {};
-  on.pairs = std::max(on.pairs, bracket->changes() + 1);
+  on.changes = bracket->changes();
+  on.turns = segment.from().tangent.dlambda * segment.to().tangent.dlambda < 0.0;
+  on.pairs = std::max(on.pairs, on.changes + 1);
   const bool falls = bracket->after > bracket->before;  // below zero
   const Index order = falls ? bracket->before + 1 : bracket->before;
   double t = bracket->middle(), half_width = 0.5 * (bracket->to - bracket->from);

@@ -9,8 +9,8 @@
 namespace arcwall {
 
 /// The first places, in their order, where the number of negative eigenvalues changes along a segment: `before` and
-/// `after` at its ends, not equal, λ not turning. Empty if the ends do not seem to belong to one arc; shorter steps
-/// will show more.
+/// `after` at its ends, not equal. Limit points are among them. Empty if the ends do not seem to belong to one arc;
+/// shorter steps will show more.
 std::vector<SingularPlace> find_count_changes(Corrector& corrector, const Segment& segment, const Metric& metric,
                                               Index before, Index after);
 
