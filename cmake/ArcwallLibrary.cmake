@@ -17,6 +17,11 @@ function(arcwall_library)
   # Nothing reads errno after a square root; to set it costs a branch and a call.
   target_compile_options(${target} PRIVATE -fno-math-errno)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE ${ARG_TOGETHER})
+  list(LENGTH ARG_SOURCES count)
+  math(EXPR most "2 * ${ARG_TOGETHER} + 1")  # one may be compiled alone
+  if(CMAKE_UNITY_BUILD AND count GREATER most)
+    message(FATAL_ERROR "${target} has ${count} sources, more than two units of ${ARG_TOGETHER}: set TOGETHER to half of them")
+  endif()
   if(DEFINED ARG_OPTIMIZE)
     optimize_target(${target} ${ARG_OPTIMIZE})
   endif()
