@@ -1,10 +1,11 @@
 #include "continuation/corners/outgoing_directions.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "core/algebra/dense.hpp"
 
 namespace arcwall {
 
@@ -156,8 +157,7 @@ Solution direction_with(const RateProblem& problem, const std::vector<Index>& ac
   const double of_sigma = A.col(0).norm(), of_forces = A.rightCols(k).norm() / std::sqrt(double(k));
   const double unit = of_sigma > 0.0 && of_forces > 0.0 ? of_sigma / of_forces : 1.0;
   A.rightCols(k) *= unit;
-  // The last column of the orthogonal factor of Aᵀ spans the null space of A.
-  const Vector null = Eigen::HouseholderQR<Matrix>(A.transpose()).householderQ() * Vector::Unit(k + 1, k);
+  const Vector null = null_vector(A);
   solution.sigma = null[0];
   for (Index j = 0; j < k; ++j) solution.p[active[static_cast<std::size_t>(j)]] = unit * null[j + 1];
   return solution;
@@ -226,7 +226,7 @@ std::vector<Solution> pivoted(const RateProblem& problem) {
   const double scale = problem.M.cwiseAbs().maxCoeff();
   const Matrix M = problem.M / scale;
   std::vector<Vector> covers{Vector::Ones(w)};
-  if (Eigen::LLT<Matrix>(0.5 * (M + M.transpose())).info() != Eigen::Success)
+  if (!is_positive_definite(M))
     for (Index j = 0; j < w; ++j) {
       covers.push_back(Vector::Ones(w));
       covers.back()[j] = 8.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/algebra/dense.hpp"
 #include "core/algebra/sliding_stability.hpp"
 
 namespace arcwall {
@@ -59,7 +60,7 @@ Index negative_real_eigenvalues(const Matrix& D) {
 
 SlipStability slip_stability(const Matrix& D) {
   if (!D.allFinite()) return SlipStability::undecided;
-  if (Eigen::LLT<Matrix>(0.5 * (D + D.transpose())).info() == Eigen::Success) return SlipStability::stable;
+  if (is_positive_definite(D)) return SlipStability::stable;
   if (D.cols() > most_tried) return SlipStability::undecided;
   for (unsigned subset = 1; subset < (1U << D.cols()); ++subset) {
     std::vector<Index> moving, resting;
