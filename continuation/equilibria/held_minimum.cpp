@@ -1,6 +1,7 @@
 #include "continuation/equilibria/held_minimum.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "core/algebra/assembly.hpp"
 
@@ -20,6 +21,12 @@ constexpr double rigid = 1e8;               // times the own stiffness of a degr
 void toggle(ActiveSet& active_set, Index j) {
   std::uint8_t& closed = active_set[static_cast<std::size_t>(j)];
   closed = closed == 0 ? 1 : 0;
+}
+
+// Of a lower triangle: where columns begin with it, nothing is searched.
+double& diagonal_entry(SparseMatrix& K, Index i) {
+  const SparseIndex first = K.outerIndexPtr()[i];
+  return first < K.outerIndexPtr()[i + 1] && K.innerIndexPtr()[first] == i ? K.valuePtr()[first] : K.coeffRef(i, i);
 }
 
 }  // namespace
@@ -53,7 +60,7 @@ bool HeldMinimum::newton(const State& from, const Hold& hold, State& state) {
   const Index multipliers = system_.multiplier_count(state.active_set);
   Vector predicted;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const auto step = correction(from, hold, state);
+    const auto step = correction(from, hold, state, weights);
     if (!step) return false;
     state.x += *step;
     const double length = motion(weights, multipliers, *step);
@@ -71,27 +78,36 @@ bool HeldMinimum::newton(const State& from, const Hold& hold, State& state) {
 
 // Newton's. Empty if the stiffness of what is held is not positive definite on the motions that the closed contacts
 // allow.
-std::optional<Vector> HeldMinimum::correction(const State& from, const Hold& hold, const State& state) {
+std::optional<Vector> HeldMinimum::correction(const State& from, const Hold& hold, const State& state,
+                                              const Vector& weights) {
   if (left_-- <= 0) return std::nullopt;
   system_.linearize(state, now_);
   const Index multipliers = system_.multiplier_count(state.active_set), n = now_.F.size() - multipliers;
   if (hold.mu > 0.0) {
-    const Vector weights = system_.weights(state.active_set);
     now_.F.head(n) += hold.mu * weights.head(n).cwiseProduct(state.x.head(n) - from.x.head(n));
-    for (Index i = 0; i < n; ++i) now_.K.coeffRef(i, i) += hold.mu * weights[i];
+    for (Index i = 0; i < n; ++i) diagonal_entry(now_.K, i) += hold.mu * weights[i];
   }
   if (hold.dof) {
     now_.F[*hold.dof] = 0.0;
     now_.K.coeffRef(*hold.dof, *hold.dof) += rigid * std::abs(now_.K.coeff(*hold.dof, *hold.dof));
   }
   if (!all_finite(now_.F)) return std::nullopt;
-  const FactorStatus status = solver_->factorize(now_.K, {.multipliers = multipliers});
+  const FactorStatus status =
+      solver_->factorize(now_.K, {.multipliers = multipliers, .same_pattern = has_last_pattern()});
   const auto inertia = solver_->inertia();
   if (status != FactorStatus::ok || !inertia || inertia->negative != multipliers) return std::nullopt;
   Matrix step = -now_.F;
   solver_->solve(step);
   if (!all_finite(step)) return std::nullopt;
   return step.col(0);
+}
+
+// Whether K has the pattern of the last one that this was asked for.
+bool HeldMinimum::has_last_pattern() {
+  Pattern pattern{.rows = now_.K.innerIndexPtr(), .nonzeros = now_.K.nonZeros(), .active_set = now_.pattern_of};
+  const bool same = pattern.active_set && pattern == pattern_;
+  pattern_ = std::move(pattern);
+  return same;
 }
 
 // The contacts to be changed: all that are wrong, later the worst alone. Empty if none is.
