@@ -13,7 +13,7 @@ namespace arcwall::test::tables {
 
 inline const std::string constant = "constant = true";            ///< of a load or a movement
 inline const std::string on_axis = "contact_surface = \"axis\"";  ///< of a wall
-inline const std::string flipped = "sign = -1";                  ///< of a monitor
+inline const std::string flipped = "sign = -1";                   ///< of a monitor
 inline const std::string moving_contact = "[contact]\npoints = \"moving\"\n";
 
 inline std::string title(std::string_view title) { return fmt::format("title = \"{}\"\n", title); }
