@@ -34,19 +34,33 @@ void CurvatureGap::add_to(Row& row, double factor, const SlidingUnknowns& index)
 
 namespace {
 
-// The wall at a touch, and the curve at the face's distance from it, on which the axis would lie.
+// How much the direction of a wall's surface turns along the surface, as a place off it sees that: of an outline the
+// curvature of the parallel curve through the place.
+LinearField turn_seen_from(const Obstacle& obstacle, const Vec2& place, double lambda) {
+  const QuadraticField direction = obstacle.direction(place, lambda);
+  const double c = std::cos(direction.value), s = std::sin(direction.value);
+  const double across = c * direction.z - s * direction.x;
+  return {.value = c * direction.x + s * direction.z,
+          .x = c * direction.xx + s * direction.xz + across * direction.x,
+          .z = c * direction.xz + s * direction.zz + across * direction.z,
+          .rate = c * direction.x_rate + s * direction.z_rate + across * direction.rate};
+}
+
+// The wall at a touch, and the curve at the face's distance from it, on which the axis would lie. A point that is open
+// follows the least gap, where the face runs as the wall that it sees from there.
 struct FacedWall {
   AxisPlace axis;
   double side, along;     // ± 1: of the wall, and of the body's travel along it
   LinearField curvature;  // of the wall
   double parallel;        // curvature of the curve
 
-  FacedWall(const SlidingSetting& setting, const SlidingState& at, const Touch& touch) : axis(touch.axis(at)) {
+  FacedWall(const SlidingSetting& setting, const SlidingState& at, const Touch& touch, bool touches = true)
+      : axis(touch.axis(at)) {
     const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
     const Vec2 place = face(touch.offset, axis);
     side = sign_of(obstacle.side());
     along = travel(obstacle, place, axis.angle, at.now.lambda);
-    curvature = obstacle.curvature(place, at.now.lambda);
+    curvature = touches ? obstacle.curvature(place, at.now.lambda) : turn_seen_from(obstacle, place, at.now.lambda);
     parallel = parallel_curvature(touch.offset, curvature.value);
   }
 
@@ -57,14 +71,10 @@ struct FacedWall {
 
 }  // namespace
 
-double gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
-                         const AxisStrain& strain) {
-  return FacedWall(setting, at, touch).gap(strain);
-}
+namespace {
 
-CurvatureGap gap_of_curvatures_gradient(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
-                                        const AxisStrainGradient& strain) {
-  const FacedWall faced(setting, at, touch);
+CurvatureGap gap_gradient(const SlidingState& at, const Touch& touch, const FacedWall& faced,
+                          const AxisStrainGradient& strain) {
   const auto& [axis, side, along, wall, parallel] = faced;
   const double offset = along * touch.offset, shrink = 1.0 / (1.0 + touch.offset * wall.value);
 
@@ -78,6 +88,18 @@ CurvatureGap gap_of_curvatures_gradient(const SlidingSetting& setting, const Sli
               out.dx);
   out.dlambda += by_wall * wall.rate;
   return out;
+}
+
+}  // namespace
+
+double gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
+                         const AxisStrain& strain) {
+  return FacedWall(setting, at, touch).gap(strain);
+}
+
+CurvatureGap gap_of_curvatures_gradient(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
+                                        const AxisStrainGradient& strain) {
+  return gap_gradient(at, touch, FacedWall(setting, at, touch), strain);
 }
 
 namespace {
@@ -97,14 +119,15 @@ SlidingMesh::At nearest_side(const SlidingSetting& setting, const SlidingState& 
 
 double curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const SlidingMesh::At side = nearest_side(setting, at, point);
-  return gap_of_curvatures(setting, at, touch_of_contact(setting, at.layout, point),
-                           at.mesh.strain(static_cast<Index>(point), side, at.now));
+  const FacedWall faced(setting, at, touch_of_contact(setting, at.layout, point), at.is_closed(point));
+  return faced.gap(at.mesh.strain(static_cast<Index>(point), side, at.now));
 }
 
 CurvatureGap curvature_gap_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const SlidingMesh::At side = nearest_side(setting, at, point);
-  return gap_of_curvatures_gradient(setting, at, touch_of_contact(setting, at.layout, point),
-                                    at.mesh.strain_gradient(static_cast<Index>(point), side, at.now));
+  const Touch touch = touch_of_contact(setting, at.layout, point);
+  return gap_gradient(at, touch, FacedWall(setting, at, touch, at.is_closed(point)),
+                      at.mesh.strain_gradient(static_cast<Index>(point), side, at.now));
 }
 
 double end_curvature_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {

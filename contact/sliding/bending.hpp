@@ -7,7 +7,8 @@
 namespace arcwall::sliding {
 
 /// How much more the obstacle bends towards the body than the body does at a tracked point, where the body does not lie
-/// on the obstacle: > 0 where contact is at a point [1/length]. (8.5) of docs/theory.md.
+/// on the obstacle: > 0 where contact is at a point [1/length]. (8.5) of docs/theory.md. Of an open point the obstacle
+/// as it is seen from there: where this vanishes the least gap that it follows is no least one any more.
 double curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
 /// The same of any touch, by what the body has on one side of it.
