@@ -1,7 +1,6 @@
 #include "continuation/equilibria/held_minimum.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "core/algebra/assembly.hpp"
 
@@ -93,21 +92,13 @@ std::optional<Vector> HeldMinimum::correction(const State& from, const Hold& hol
   }
   if (!all_finite(now_.F)) return std::nullopt;
   const FactorStatus status =
-      solver_->factorize(now_.K, {.multipliers = multipliers, .same_pattern = has_last_pattern()});
+      solver_->factorize(now_.K, {.multipliers = multipliers, .same_pattern = pattern_.is_of(now_)});
   const auto inertia = solver_->inertia();
   if (status != FactorStatus::ok || !inertia || inertia->negative != multipliers) return std::nullopt;
   Matrix step = -now_.F;
   solver_->solve(step);
   if (!all_finite(step)) return std::nullopt;
   return step.col(0);
-}
-
-// Whether K has the pattern of the last one that this was asked for.
-bool HeldMinimum::has_last_pattern() {
-  Pattern pattern{.rows = now_.K.innerIndexPtr(), .nonzeros = now_.K.nonZeros(), .active_set = now_.pattern_of};
-  const bool same = pattern.active_set && pattern == pattern_;
-  pattern_ = std::move(pattern);
-  return same;
 }
 
 // The contacts to be changed: all that are wrong, later the worst alone. Empty if none is.

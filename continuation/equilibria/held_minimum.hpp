@@ -38,19 +38,12 @@ class HeldMinimum {
   };
   std::optional<State> find(const State& start, const Hold& hold);
   bool newton(const State& from, const Hold& hold, State& state);
-  struct Pattern {
-    const SparseIndex* rows = nullptr;
-    Index nonzeros = 0;
-    std::optional<ActiveSet> active_set{};
-    bool operator==(const Pattern&) const = default;
-  };
   std::optional<Vector> correction(const State& from, const Hold& hold, const State& state, const Vector& weights);
-  bool has_last_pattern();
   std::optional<ActiveSet> next_active_set(const State& state, int change) const;
 
   const UnilateralSystem& system_;
   Linearization now_;
-  Pattern pattern_;  // of the last matrix factorized
+  LastPattern pattern_;  // of the matrix factorized
   std::unique_ptr<Factorization> solver_;
   Index& left_;
 };

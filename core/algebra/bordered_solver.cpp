@@ -42,9 +42,7 @@ FactorStatus BorderedSolver::factorize(Linearization& equations, Index multiplie
   equations_ = &equations;
   multipliers_ = multipliers;
   const SparseMatrix& K = equations.K;
-  Pattern pattern{.rows = K.innerIndexPtr(), .nonzeros = K.nonZeros(), .active_set = equations.pattern_of};
-  const bool same = pattern.active_set && pattern == pattern_;
-  pattern_ = std::move(pattern);
+  const bool same = pattern_.is_of(equations);
   const FactorStatus status = inner_->factorize(K, {.multipliers = multipliers,
                                                     .translation_free = &equations.translation_free,
                                                     .ground = equations.ground,

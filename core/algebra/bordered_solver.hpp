@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/algebra/factorization.hpp"
+#include "core/algebra/last_pattern.hpp"
 #include "core/algebra/singular_bordered_solver.hpp"
 #include "core/algebra/unsymmetric_factors.hpp"
 #include "core/equilibrium_line.hpp"
@@ -63,14 +64,6 @@ class BorderedSolver {
   const Matrix& reduced() const { return reduced_; }
 
  private:
-  // As long as a linearization stays where it is and on one active set, so does the pattern of its K.
-  struct Pattern {
-    const SparseIndex* rows = nullptr;
-    Index nonzeros = 0;
-    std::optional<ActiveSet> active_set{};
-    bool operator==(const Pattern&) const = default;
-  };
-
   bool eliminate_border();
   bool solve_inner(Matrix& X, double& cancelled) const;
   bool solve_line(EquilibriumLine& line, double& cancelled);
@@ -81,7 +74,7 @@ class BorderedSolver {
   void factorize_whole(const Row& border, const Matrix& columns);
 
   Linearization* equations_ = nullptr;
-  Pattern pattern_;
+  LastPattern pattern_;
   MakeFactorization make_;
   std::unique_ptr<Factorization> inner_;
   SingularBorderedSolver whole_;
