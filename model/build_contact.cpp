@@ -78,6 +78,22 @@ bool changes(const Candidate& candidate, const State& rest) {
   return gap.gradient.norm() > least;
 }
 
+// The direction of a wall that is straight all along.
+std::optional<Vec2> straight_direction(const deck::Wall& wall) {
+  if (!wall.outline) {
+    if (std::holds_alternative<deck::FlatProfile>(wall.profile)) return Vec2::UnitX();
+    const auto* line = std::get_if<deck::LineProfile>(&wall.profile);
+    return line ? std::optional(Vec2(1.0, line->slope)) : std::nullopt;
+  }
+  if (const auto* plane = std::get_if<deck::HalfPlaneOutline>(&*wall.outline))
+    return Vec2(plane->normal.z, -plane->normal.x);
+  if (const auto* line = std::get_if<deck::PolylineOutline>(&*wall.outline)) {
+    const std::vector<Vec2> points = line->points();
+    if (points.size() == 2) return points[1] - points[0];
+  }
+  return std::nullopt;
+}
+
 // How many ways the structure may move the point at which a wall's friction acts: at most two.
 Index motions(const Candidate& candidate, const State& rest) {
   constexpr double least = 1e-9;  // of the motion
@@ -93,15 +109,15 @@ bool moves_along(const Candidate& candidate, const State& rest) {
   return !candidate.faces_wall(rest) || motions(candidate, rest) == 2;
 }
 
-// Whether λ moves a point along the wall that it faces. Along a curved wall a point slides that λ moves one way and
-// that is free the other, wherever it touches.
-bool is_moved_along(const Candidate& candidate, const State& rest) {
+// Whether λ moves a point along the wall that it faces. Along a wall that is curved or turns, a point slides that λ
+// moves one way and that is free the other, wherever it touches.
+bool is_moved_along(const deck::Wall& wall, const Candidate& candidate, const State& rest) {
   constexpr double least = 1e-9;  // of the motion
   PointKinematics at;
   candidate.rubbing_point().kinematics(rest, at);
   const double along = std::abs(cross(candidate.normal(rest), at.rate));
-  const bool is_curved = !candidate.obstacle().knots().empty();
-  return along > least * at.rate.norm() || (is_curved && motions(candidate, rest) == 1 && at.rate.norm() > 0.0);
+  const bool stays_straight = straight_direction(wall) && motion_of(wall).turn == 0.0;
+  return along > least * at.rate.norm() || (!stays_straight && motions(candidate, rest) == 1 && at.rate.norm() > 0.0);
 }
 
 bool acts_on_axis(const TouchAtRest& touch) { return touch.wall->contact_surface == deck::ContactSurface::axis; }
@@ -435,7 +451,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
           candidate.set_friction(friction_of(deck, wall, mesh.name, section.fraction),
                                  on_axis ? std::make_unique<MemberPoint>(structure, section, 0.0) : nullptr);
           if (candidate.friction() > 0.0 && !moves_along(candidate, rest)) {
-            if (is_moved_along(candidate, rest))
+            if (is_moved_along(wall, candidate, rest))
               problems.add(
                   wall.position, "wall.friction",
                   fmt::format("a support moves {}:{:.4g} along the wall, and friction would act on the support",
@@ -535,22 +551,6 @@ bool same_walls(const deck::Deck& deck, const std::string& a, const std::string&
 }
 
 namespace {
-
-// The direction of a wall that is straight all along.
-std::optional<Vec2> straight_direction(const deck::Wall& wall) {
-  if (!wall.outline) {
-    if (std::holds_alternative<deck::FlatProfile>(wall.profile)) return Vec2::UnitX();
-    const auto* line = std::get_if<deck::LineProfile>(&wall.profile);
-    return line ? std::optional(Vec2(1.0, line->slope)) : std::nullopt;
-  }
-  if (const auto* plane = std::get_if<deck::HalfPlaneOutline>(&*wall.outline))
-    return Vec2(plane->normal.z, -plane->normal.x);
-  if (const auto* line = std::get_if<deck::PolylineOutline>(&*wall.outline)) {
-    const std::vector<Vec2> points = line->points();
-    if (points.size() == 2) return points[1] - points[0];
-  }
-  return std::nullopt;
-}
 
 // A level wall lies along their way. Where a wall goes is no matter, so that the ramp and all stages of a deck have the
 // same contacts.

@@ -408,17 +408,23 @@ TEST(Grip, ThatDrawsATipAlongARoughWallIsRefused) {
   EXPECT_EQ(test::said_of(pressed_strip(0.0, grip + press + draw)), "");
 }
 
-// It is flat below the tip at rest, and the tip slides down its slope later.
-TEST(Grip, ThatPressesATipOnARoughHillIsRefused) {
-  const auto pressed = [](double friction) {
-    return cantilever(
-        "[[prescribed]]\nat = \"b\"\nz = -1.0\n[contact]\npoints = \"nodes\"\n[[wall]]\nname = \"hill\"\n"
-        "side = \"below\"\ncontact_surface = \"axis\"\n"
-        "profile = { type = \"circle\", centre = [1.0, -1.05], radius = 1.0 }\nfriction = " +
-        std::to_string(friction) + "\n[path]\nstep = 0.01\nstop = { lambda = [-0.1, 0.2] }\n");
+// A hill is flat below the tip at rest, and the tip slides down its slope later; a floor may turn. One that stays
+// straight and level it is pressed on squarely, whether the floor has ends or none.
+TEST(Grip, ThatPressesATipOnARoughWallThatIsNotStraightIsRefused) {
+  const auto said = [](const std::string& floor, double friction) {
+    return test::said_of(
+        cantilever(prescribed("b", "z = -1.0") + contact("points = \"nodes\"") +
+                   wall("floor", floor + "; contact_surface = \"axis\"; friction = " + number(friction)) +
+                   path("step = 0.01; stop = { lambda = [-0.1, 0.2] }")));
   };
-  EXPECT_NE(test::said_of(pressed(0.3)).find("a support moves m:1 along the wall"), std::string::npos);
-  EXPECT_EQ(test::said_of(pressed(0.0)), "");
+  const std::string hill = R"(side = "below"; profile = { type = "circle", centre = [1.0, -1.05], radius = 1.0 })",
+                    level = R"(side = "below"; profile = { type = "flat", z = -0.05 })",
+                    with_ends = R"(outline = { type = "polyline", points = [[0.5, -0.05], [1.5, -0.05]] })";
+  for (const std::string& floor : {hill, level + "; motion = { rotation = 0.1, about = [1.0, -0.05] }"}) {
+    EXPECT_NE(said(floor, 0.3).find("a support moves m:1 along the wall"), std::string::npos);
+    EXPECT_EQ(said(floor, 0.0), "");
+  }
+  for (const std::string& floor : {level, with_ends}) EXPECT_EQ(said(floor, 0.3), "");
 }
 
 // A number moves the place where a later stage grips, which is told and not left out.
