@@ -160,8 +160,8 @@ std::vector<std::string> left_out(const Model& model, Index uncounted, bool move
 }
 
 // Friction opposes slip: what slips at two points that follow each other has slipped against its friction force. Where
-// contact moves along a body whose stretch changes on the way, the length that it has passed is known between two
-// bounds. check_energy_balance() looks at the material points on compliant walls.
+// contact moves along a body whose stretch rises or falls on the way, the length that it has passed is known between
+// two bounds. check_energy_balance() looks at the material points on compliant walls.
 void check_slips(const Model& model, const RecordPoint& before, const RecordPoint& after, Findings& findings) {
   const FrictionalContact* const contacts = model.friction();
   const ActiveSet& active_set = after.state.active_set;

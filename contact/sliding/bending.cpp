@@ -69,10 +69,6 @@ struct FacedWall {
   double gap(const AxisStrain& strain) const { return side * (along * strain.curvature - strain.stretch * parallel); }
 };
 
-}  // namespace
-
-namespace {
-
 CurvatureGap gap_gradient(const SlidingState& at, const Touch& touch, const FacedWall& faced,
                           const AxisStrainGradient& strain) {
   const auto& [axis, side, along, wall, parallel] = faced;

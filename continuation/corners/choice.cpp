@@ -101,17 +101,17 @@ Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std:
   const auto place = std::find_if(visited.begin(), visited.end(), is_here);
   std::vector<Direction> known = place == visited.end() ? std::vector<Direction>{} : place->ways;
   const bool again = !known.empty() && at.arc - place->arc > coincidence_tolerance;  // else it was never away
-  const auto is = [&](const Direction& way) {
+  const auto same_as = [&](const Direction& way) {
     return [&](const Direction& known_way) { return metric.inner(known_way, way) > same_way; };
   };
-  if (!again) std::erase_if(known, is(incoming));  // on that way it is just now
+  if (!again) std::erase_if(known, same_as(incoming));  // on that way it is just now
   known.push_back(reversed(incoming));
   Choice choice{.visit = {.which = static_cast<std::size_t>(place - visited.begin()),
                           .corner = {.corner = here, .arc = at.arc, .ways = {known.back()}}}};
 
   std::erase_if(ways, [&](const OutgoingDirection& way) {
     const Direction direction = opened(way);
-    return std::any_of(known.begin(), known.end(), is(direction));
+    return std::any_of(known.begin(), known.end(), same_as(direction));
   });
   if (ways.empty()) {
     choice.result = again ? BranchEnd{.reason = EndReason::closed_loop,

@@ -277,7 +277,7 @@ std::vector<OutgoingDirection> direction_of(const UnilateralSystem& system, cons
   if ((p.array() < -p_zero).any() || (gap_rate.array() < -g_zero).any()) return {};
 
   OutgoingDirection way;
-  way.wrong = std::max({-p.minCoeff() / p_zero, -gap_rate.minCoeff() / g_zero, 0.0});
+  way.wrong_rate = std::max({-p.minCoeff() / p_zero, -gap_rate.minCoeff() / g_zero, 0.0});
   way.active_set = corner.active_set;
   way.loading = ActiveSet(corner.active_set.size(), 0);
   for (Index i = 0; i < p.size(); ++i) {
@@ -324,7 +324,7 @@ std::vector<OutgoingDirection> way_on_active_set(const UnilateralSystem& system,
     const double zero = options.rate_tolerance * (is_closed ? loads : moves), rate = rates[static_cast<Index>(i)];
     const auto j = static_cast<std::size_t>(degenerate[i]);
     if (rate < -zero) return {};
-    if (rate < 0.0) way.wrong = std::max(way.wrong, -rate / zero);
+    if (rate < 0.0) way.wrong_rate = std::max(way.wrong_rate, -rate / zero);
     if (rate <= zero) continue;
     way.active_set[j] = way.loading[j] = static_cast<std::uint8_t>(is_closed);
   }
@@ -374,7 +374,7 @@ std::vector<OutgoingDirection> outgoing_directions(const UnilateralSystem& syste
     });
     if (known == found.end())
       found.push_back(std::move(way));
-    else if (way.wrong < known->wrong)
+    else if (way.wrong_rate < known->wrong_rate)
       *known = std::move(way);
   };
   std::vector<OutgoingDirection> ways;

@@ -10,10 +10,10 @@ namespace arcwall {
 
 /// One way on from a change of contacts.
 struct OutgoingDirection {
-  ActiveSet active_set{};  ///< contacts closed along it; those that neither load nor open keep the status they had
-  Direction direction{};   ///< of any length, in the unknowns of `active_set`
-  ActiveSet loading{};     ///< degenerate contacts whose force grows along it
-  double wrong = 0.0;      ///< the greatest rate of the wrong sign, over the one that counts as zero; at most 1
+  ActiveSet active_set{};   ///< contacts closed along it; those that neither load nor open keep the status they had
+  Direction direction{};    ///< of any length, in the unknowns of `active_set`
+  ActiveSet loading{};      ///< degenerate contacts whose force grows along it
+  double wrong_rate = 0.0;  ///< the greatest rate of the wrong sign, over the one that counts as zero; at most 1
 };
 
 /// The matrix of a corner and its factorization, kept from corner to corner.

@@ -27,7 +27,7 @@ std::optional<Matrix> flexibility(const SegmentSamples& on, const PathSample& sa
   return Matrix(0.5 * (product + product.transpose()));
 }
 
-constexpr double near = 50.0;  // times the least eigenvalue: those of critical modes
+constexpr double critical_within = 50.0;  // times the least eigenvalue: those of critical modes
 
 // The modes at the sample reached last whose eigenvalues, with Q of (1), are near zero.
 Matrix critical_modes(const SegmentSamples& on, const PathSample& sample) {
@@ -40,7 +40,7 @@ Matrix critical_modes(const SegmentSamples& on, const PathSample& sample) {
   const Vector size = axes.values.cwiseAbs();
   std::vector<Index> critical;
   for (Index j = 0; j < size.size(); ++j)
-    if (near * size[j] >= size.maxCoeff()) critical.push_back(j);
+    if (critical_within * size[j] >= size.maxCoeff()) critical.push_back(j);
   return *pairs->vectors * axes.vectors(Eigen::all, critical);
 }
 
@@ -60,7 +60,7 @@ std::optional<Matrix> matrix_of_pairs(const SegmentSamples& on, const PathSample
   const auto pairs = on.corrector.near_null(sample.state, on.metric.weights(), on.pairs);
   if (!pairs || pairs->vectors->cols() == 0 || !pairs->vectors->allFinite()) return std::nullopt;
   const Vector size = pairs->values.cwiseAbs();
-  const Index critical = (size.array() <= near * size.minCoeff()).count();
+  const Index critical = (size.array() <= critical_within * size.minCoeff()).count();
   if (modes.cols() == 0) modes = pairs->vectors->leftCols(critical);
   const Matrix parts = modes.transpose() * on.metric.weights().head(modes.rows()).asDiagonal() * *pairs->vectors;
   const Matrix inverse = parts * pairs->values.cwiseInverse().asDiagonal() * parts.transpose();

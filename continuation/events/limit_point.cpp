@@ -154,7 +154,7 @@ void add_branch_point_at_limit(TraceTools& tools, const StepOrigin& origin, cons
   limit.branching = std::move(branching);
 }
 
-// Where λ turns an eigenvalue passes zero. If another passes zero at the same place, Newton's method is at a loss
+// Where λ turns an eigenvalue passes zero. If another passes zero there in the same sense, Newton's method is at a loss
 // there, as at any branch point, and the place is interpolated as theirs are. Empty where no such place is found.
 std::optional<LocatedEvent> locate_multiple_turn(TraceTools& tools, const StepOrigin& origin, const Segment& segment) {
   const Index before = *origin.from.negative_eigenvalues, after = *segment.to().negative_eigenvalues;
