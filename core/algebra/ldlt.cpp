@@ -12,11 +12,19 @@ namespace arcwall {
 
 namespace {
 
+// `couplings`: of the multipliers those, the first ones, that are taken into blocks.
 std::unique_ptr<SymmetricFactors> analysed(const SparseMatrix& A, Index multipliers,
-                                           const std::vector<bool>& translation_free) {
-  if (auto blocks = find_blocks(A, multipliers, BlockTridiagonalLdlt::widest)) {
-    if (multipliers == 0) return std::make_unique<BlockTridiagonalLdlt>(A, *blocks, translation_free);
-    if (auto pressed = NullSpaceLdlt::of(A, multipliers, *blocks, translation_free)) return pressed;
+                                           const std::vector<bool>& translation_free, Index& couplings) {
+  auto blocks = find_blocks(A, multipliers, BlockTridiagonalLdlt::widest);
+  couplings = blocks ? take_in_couplings(A, multipliers, *blocks) : 0;
+  const auto is_wide = [](const std::vector<Index>& block) {
+    return static_cast<Index>(block.size()) > BlockTridiagonalLdlt::widest;
+  };
+  if (blocks && std::none_of(blocks->begin(), blocks->end(), is_wide)) {
+    std::vector<bool> is_free = translation_free;
+    if (!is_free.empty()) is_free.resize(is_free.size() + static_cast<std::size_t>(couplings), false);
+    if (multipliers == couplings) return std::make_unique<BlockTridiagonalLdlt>(A, *blocks, is_free);
+    if (auto pressed = NullSpaceLdlt::of(A, multipliers - couplings, *blocks, is_free)) return pressed;
   }
   std::unique_ptr<SymmetricFactors> large = multipliers > 0 ? nullptr : modified_cholesky(A);
   return large ? std::move(large) : simplicial_ldlt(A, multipliers);
@@ -42,8 +50,8 @@ void Ldlt::ensure_analysed(const SparseMatrix& A, const MatrixProperties& known)
   others_.reset();
   multipliers_ = known.multipliers;
   translation_free_ = std::move(translation_free);
-  if (!factors_ || !same_structure || !factors_->reuse_analysis(A, multipliers_))
-    factors_ = analysed(A, multipliers_, translation_free_);
+  if (!factors_ || !same_structure || !factors_->reuse_analysis(A, multipliers_ - couplings_))
+    factors_ = analysed(A, multipliers_, translation_free_, couplings_);
   factors_->expect_near_null(near_null_);
   if (!same) pattern_ = Pattern(A);
 }

@@ -33,8 +33,8 @@ class Ldlt final : public Factorization {
   std::unique_ptr<SymmetricFactors> others_;   // of the same, for what those refuse
   SymmetricFactors* usable_ = nullptr;         // which of them holds the last matrix
   Pattern pattern_;                            // that was analysed, with these
-  Index multipliers_ = 0;
-  std::vector<bool> translation_free_;  // of the unknowns that are no multipliers: these come and go
+  Index multipliers_ = 0, couplings_ = 0;      // of these the first, which are eliminated with what they couple
+  std::vector<bool> translation_free_;         // of the unknowns that are no multipliers: these come and go
   Matrix near_null_;
 };
 

@@ -124,4 +124,25 @@ std::optional<Blocks> find_blocks(const SparseMatrix& A, Index multipliers, Inde
   return blocks;
 }
 
+Index take_in_couplings(const SparseMatrix& A, Index multipliers, Blocks& blocks) {
+  const Index n = A.cols() - multipliers;
+  struct Reach {
+    std::size_t first, last;
+  };
+  std::vector<Reach> reach(static_cast<std::size_t>(multipliers), {blocks.size(), 0});
+  for (std::size_t block = 0; block < blocks.size(); ++block)
+    for (const Index column : blocks[block])
+      for (SparseMatrix::InnerIterator entry(A, column); entry; ++entry) {
+        if (entry.row() < n) continue;
+        Reach& of = reach[static_cast<std::size_t>(entry.row() - n)];
+        of = {std::min(of.first, block), std::max(of.last, block)};
+      }
+  Index taken = 0;
+  for (const Reach& of : reach) {
+    if (of.last != of.first + 2) break;
+    blocks[of.first + 1].push_back(n + taken++);
+  }
+  return taken;
+}
+
 }  // namespace arcwall

@@ -15,4 +15,8 @@ using Blocks = std::vector<std::vector<Index>>;
 /// one had more than `widest` unknowns. A chain of members has its nodes for blocks.
 std::optional<Blocks> find_blocks(const SparseMatrix& lower_triangle, Index multipliers, Index widest);
 
+/// Puts the first multipliers, as far as each has entries in three blocks one behind the other, last into the middle
+/// one. Returns how many: they couple that block with its neighbours, as its other unknowns do.
+Index take_in_couplings(const SparseMatrix& lower_triangle, Index multipliers, Blocks& blocks);
+
 }  // namespace arcwall

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
+#include "core/algebra/block_tridiagonal/blocks.hpp"
 #include "tests/support/dense.hpp"
 
 namespace arcwall::ldlt_test {
@@ -184,6 +187,39 @@ TEST(Ldlt, CanBeMoved) {
   Matrix X = Matrix::Ones(3, 1);
   second.solve(X);
   EXPECT_EQ(X, Matrix::Constant(3, 1, 0.5));
+}
+
+// A chain of nodes with three unknowns each: a force that is an unknown is all that couples the third and the fourth,
+// and moves none of the fifth. Two multipliers more hold something of the fourth.
+TEST(Ldlt, AForceBetweenBlocksIsEliminatedWithOneOfThem) {
+  Numbers numbers(5);
+  constexpr Index nodes = 7, n = 3 * nodes, all = n + 3;
+  Matrix A = Matrix::Zero(all, all);
+  for (Index node = 0; node + 1 < nodes; ++node) {
+    const Matrix B = numbers.matrix(6, 6), K = B * B.transpose() + Matrix::Identity(6, 6);
+    if (node != 2) A.block(3 * node, 3 * node, 6, 6) += K;
+  }
+  A.block(9, 6, 3, 3).setConstant(1e-300);
+  A.block(n, 6, 1, 6) = numbers.matrix(1, 6);
+  A.block(n, 12, 1, 3).setConstant(1e-300);
+  A.block(n + 1, 9, 2, 3) = numbers.matrix(2, 3);
+  const Matrix symmetric = A.triangularView<Eigen::Lower>().toDenseMatrix() +
+                           A.triangularView<Eigen::StrictlyLower>().toDenseMatrix().transpose();
+  SparseMatrix lower = lower_triangle(symmetric, 1e-307);
+  for (Index i = 0; i < all; ++i) lower.coeffRef(i, i) += 0.0;
+  lower.makeCompressed();
+  auto blocks = find_blocks(lower, 3, 6);
+  ASSERT_TRUE(blocks);
+  EXPECT_EQ(take_in_couplings(lower, 3, *blocks), Index{1});
+  for (const std::vector<Index>& block : *blocks) {
+    const bool is_of_fourth = std::find(block.begin(), block.end(), Index{9}) != block.end();
+    EXPECT_EQ(block.size(), is_of_fourth ? 4U : 3U);
+    EXPECT_EQ(block.back() == n, is_of_fourth);
+  }
+  Ldlt ldlt;
+  ASSERT_EQ(ldlt.factorize(lower, {.multipliers = 3}), FactorStatus::ok);
+  expect_inertia(ldlt, symmetric);
+  expect_solves(ldlt, symmetric, numbers);
 }
 
 }  // namespace arcwall::ldlt_test
