@@ -39,6 +39,10 @@ struct MeshSegment {
   bool pressed = false;
   std::vector<Index> handed_on{};
 
+  /// The one element between two breakpoints lies straight: it bears an axial force, which is an unknown, and the
+  /// moment that holds its natural curvature straight. It may have no length.
+  bool straight = false;
+
   bool ends_at_load() const { return load >= 0; }
   bool operator==(const MeshSegment&) const = default;
 };
@@ -87,6 +91,13 @@ class SlidingMesh {
 
   virtual const ElementsPerSegment& elements_per_segment() const = 0;
   virtual Index unknowns() const = 0;
+
+  /// The last of the unknowns, so many, are the axial forces of straight segments. To K they are multipliers: of what
+  /// each holds, a little gives way by itself.
+  virtual Index axial_forces() const = 0;
+
+  /// Which unknown is the axial force of the element behind a node; empty of elements that are not straight ones.
+  virtual std::optional<Index> axial_force(Index strand, Index position) const = 0;
 
   /// s has as many entries, strand by strand in ascending order.
   virtual Index breakpoints() const = 0;

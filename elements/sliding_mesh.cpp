@@ -43,6 +43,7 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
       meshed.pressed.insert(meshed.pressed.end(), static_cast<std::size_t>(n), segments[i].pressed);
       for (const Index inside : segments[i].handed_on)
         handed_on[static_cast<std::size_t>(inside)] = {meshed.elements, meshed.elements + n - 1};
+      if (segments[i].straight) straights_.push_back({.strand = r, .position = meshed.elements, .force = held});
       meshed.elements += n;
       if (at_load) load_nodes[static_cast<std::size_t>(load)] = meshed.elements;
       if (b.breakpoint != held) breakpoints_.emplace_back(r, meshed.elements);
@@ -73,16 +74,24 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
     rotations += meshed.elements + 1;
     runs_.push_back(std::move(meshed));
   }
+  const Index nodal = unknowns;
+  for (Straight& straight : straights_) straight.force = unknowns++;
   IndexLists blocks;
   for (Index r = 0; r < structure.strands(); ++r)
     for (Index e = 0; e < mesh_of(r).elements; ++e) {
       const NodeUnknowns first = node_unknowns(r, e), second = node_unknowns(r, e + 1);
       blocks.push_back({first[0], first[1], first[2], second[0], second[1], second[2]});
+      if (const auto force = axial_force(r, e)) blocks.back().push_back(*force);
     }
   for (const NodalTerms::Spring& spring : structure.nodal_.springs())
     blocks.push_back({unknown(spring.first), unknown(spring.second)});
   for (const NodalTerms::LawSpring& spring : structure.nodal_.law_springs())
     if (spring.first) blocks.push_back({unknown(*spring.first), unknown(spring.second)});
+  // An axial force is eliminated with the node behind it, and couples with the next one as that does.
+  for (const Straight& straight : straights_) {
+    const NodeUnknowns next = node_unknowns(straight.strand, straight.position + 2);
+    blocks.push_back({straight.force, next[0], next[1], next[2]});
+  }
   assembly_ = BlockAssembly(unknowns, blocks);
   number_fours();
 
@@ -90,7 +99,8 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
   const double L = structure.length_scale_;
   displacement_weight_ = 1.0 / (double(node_count) * L * L);
   rotation_weight_ = 1.0 / double(rotations);
-  metric_.weights = Vector::Constant(unknowns, displacement_weight_);
+  metric_.weights = Vector::Zero(unknowns);
+  metric_.weights.head(nodal).setConstant(displacement_weight_);
   for (Index r = 0; r < structure.strands(); ++r)
     for (Index i = 0; i < nodes(r); ++i)
       if (const Index turn = node_unknowns(r, i)[2]; turn != held) metric_.weights[turn] = rotation_weight_;
@@ -221,6 +231,7 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(Index strand, Index
 
 SlidingStructureMesh::Response SlidingStructureMesh::respond_unloaded(Index strand, Index position,
                                                                       const MeshState& now, bool with_rates) const {
+  if (const Straight* const straight = straight_at(strand, position)) return respond_straight(*straight, now, nullptr);
   const SlidingStructure::Run& described = structure_.at(strand);
   const Ends at = ends(strand, position, now);
   const StretchReference stretch = reference(strand, position, now);
@@ -348,6 +359,7 @@ void SlidingStructureMesh::residual(const MeshState& now, Eigen::Ref<Vector> F) 
       [&](Index dof) { return structure_.value(*this, now, dof); }, F.data());
   add_fours(now, F, nullptr);
   for (const auto& [r, e] : others_) add_forces(r, e, respond_unloaded(r, e, now, false), F);
+  for (const Straight& straight : straights_) add_straight(straight, now, F, nullptr);
   for (const InnerLoad& load : inner_loads_) {
     const Index e = element_of(load, now);
     add_forces(load.strand, e, respond(load, e, now, false), F);
@@ -373,6 +385,7 @@ void SlidingStructureMesh::linearize(const MeshState& now, Linearization& out) c
       [&](Index dof) { return structure_.value(*this, now, dof); }, out);
   add_fours(now, out.F, &out);
   for (const auto& [r, e] : others_) add(r, e, respond_unloaded(r, e, now, m > 0), out);
+  for (const Straight& straight : straights_) add_straight(straight, now, out.F, &out);
   for (const InnerLoad& load : inner_loads_) {
     const Index e = element_of(load, now);
     add(load.strand, e, respond(load, e, now, m > 0), out);
@@ -395,6 +408,7 @@ void SlidingStructureMesh::add(Index strand, Index position, const Response& res
 double SlidingStructureMesh::energy(const MeshState& now) const {
   double energy = energy_of_fours(now);
   for (const auto& [r, e] : others_) energy += respond_unloaded(r, e, now, false).energy;
+  for (const Straight& straight : straights_) energy += respond_straight(straight, now, nullptr).energy;
   for (const InnerLoad& load : inner_loads_) energy += respond(load, element_of(load, now), now, false).energy;
   return energy + structure_.nodal_.energy(now.lambda, [&](Index dof) { return structure_.value(*this, now, dof); });
 }

@@ -20,6 +20,8 @@ class SlidingStructureMesh final : public SlidingMesh {
 
   const ElementsPerSegment& elements_per_segment() const override { return cut_; }
   Index unknowns() const override { return assembly_.unknown_count(); }
+  Index axial_forces() const override { return static_cast<Index>(straights_.size()); }
+  std::optional<Index> axial_force(Index strand, Index position) const override;
   Index breakpoints() const override { return static_cast<Index>(breakpoints_.size()); }
   const StateMetric& metric() const override { return metric_; }
   void residual(const MeshState& now, Eigen::Ref<Vector> F) const override;
@@ -162,6 +164,20 @@ class SlidingStructureMesh final : public SlidingMesh {
   static PlaceByEnds place_on_chord(const InnerLoad& load, const Ends& at, double S1, double S2, Vec2* place);
   Response respond(const InnerLoad& load, Index position, const MeshState& now, bool with_rates) const;
 
+  // A straight segment's one element, of which `force` is the unknown axial force.
+  struct Straight {
+    Index strand, position, force;
+  };
+  // What the axial force of such an element answers: its equation, and the derivatives of that.
+  struct AxialResponse {
+    double value = 0.0, by_itself = 0.0, by_lambda = 0.0;
+    Six by_ends = Six::Zero();
+    std::array<double, 2> rate{};
+  };
+  const Straight* straight_at(Index strand, Index position) const;
+  Response respond_straight(const Straight& straight, const MeshState& now, AxialResponse* axial) const;
+  void add_straight(const Straight& straight, const MeshState& now, Eigen::Ref<Vector> F, Linearization* out) const;
+
   // Adds what an element answers.
   void add_forces(Index strand, Index position, const Response& response, Eigen::Ref<Vector> F) const;
   void add(Index strand, Index position, const Response& response, Linearization& out) const;
@@ -202,6 +218,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   std::vector<MeshedRun> runs_;
   std::vector<Index> unknown_of_dof_;  // of the anchors, and of x and z where point loads have nodes
   std::vector<InnerLoad> inner_loads_;
+  std::vector<Straight> straights_;
   BlockAssembly assembly_{0, {}};
   std::vector<Four> fours_;
   std::vector<std::pair<Index, Index>> others_;  // strand and position of the elements that are evaluated one by one

@@ -14,6 +14,11 @@ void SlidingStructureMesh::number_fours() {
       const bool last = segment + 1 == segments.size();
       const Index behind = last || segments[segment].ends_at_load() ? held : breakpoint++;
       const int n = segments[segment].elements;
+      if (segments[segment].straight) {  // its element is of another kind
+        first += n;
+        before = behind;
+        continue;
+      }
       for (int i = 0; i < n; i += Lanes::count) {
         Four four{.strand = r,
                   .position = first + i,

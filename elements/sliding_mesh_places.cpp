@@ -53,6 +53,12 @@ AxisStrainGradient SlidingStructureMesh::node_strain_gradient(Index strand, Inde
       strain.curvature_dx[to[i]] += curvature_dx[static_cast<Index>(i)];
       strain.stretch_dx[to[i]] += stretch_dx[static_cast<Index>(i)];
     }
+  if (const Straight* const straight = straight_at(strand, e)) {
+    AxialResponse axial;
+    respond_straight(*straight, now, &axial);
+    strain.curvature_dx[straight->force] += axial.by_ends[turn] / EI;
+    strain.stretch_dx[straight->force] += axial.by_ends.segment<2>(place).dot(t) / EA;
+  }
   for_each_rate(strand, e, response, [&](Index j, const Six& rate) {
     strain.curvature_ds[j] += rate[turn] / EI;
     strain.stretch_ds[j] += rate.segment<2>(place).dot(t) / EA;
@@ -114,6 +120,9 @@ AxisPlace SlidingStructureMesh::inside(Index strand, Index position, double frac
   if (fraction >= 1.0) return node(strand, position + 1, now);
   const Ends at = ends(strand, position, now);
   AxisPlace place;
+  if (axial_force(strand, position))
+    return {.position = (1.0 - fraction) * at.first + fraction * at.second,
+            .angle = (1.0 - fraction) * at.angle1 + fraction * at.angle2};
   with_beam(strand, reference(strand, position, now), now.lambda, [&](const auto& beam) {
     const BeamPlace local = beam.place(at.between(), fraction);
     place = {.position = at.first + local.offset, .angle = local.angle};
@@ -130,17 +139,24 @@ SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPo
   gradient.ds.setZero(3, m);
   const Ends at = ends(point.strand, e, now);
   const auto to = assembly_.unknowns(mesh_of(point.strand).first_element + e);
-  with_beam(point.strand, reference(point.strand, e, now), now.lambda, [&](const auto& beam) {
-    const BeamPlace local = beam.place(at.between(), (point.s - S1) / (S2 - S1));
-    for (int row = 0; row < 3; ++row) {
-      StretchLoad::Vector6 d =
-          at_ends(Eigen::Vector4d(row < 2 ? local.offset_gradient.row(row) : local.angle_gradient));
-      if (row < 2) d[row] += 1.0;
-      for (std::size_t i = 0; i < 6; ++i)
-        if (to[i] != held) gradient.dx(row, to[i]) += d[static_cast<Index>(i)];
-      gradient.dlambda[row] = d.dot(end_rates(point.strand, e));
-    }
-  });
+  if (axial_force(point.strand, e)) {
+    const double second = (point.s - S1) / (S2 - S1);
+    for (Index row = 0; row < 3; ++row)
+      for (const auto& [place, part] : {std::pair(row, 1.0 - second), std::pair(row + 3, second)})
+        gradient.dx(row, to[static_cast<std::size_t>(place)]) += part;
+  } else {
+    with_beam(point.strand, reference(point.strand, e, now), now.lambda, [&](const auto& beam) {
+      const BeamPlace local = beam.place(at.between(), (point.s - S1) / (S2 - S1));
+      for (int row = 0; row < 3; ++row) {
+        StretchLoad::Vector6 d =
+            at_ends(Eigen::Vector4d(row < 2 ? local.offset_gradient.row(row) : local.angle_gradient));
+        if (row < 2) d[row] += 1.0;
+        for (std::size_t i = 0; i < 6; ++i)
+          if (to[i] != held) gradient.dx(row, to[i]) += d[static_cast<Index>(i)];
+        gradient.dlambda[row] = d.dot(end_rates(point.strand, e));
+      }
+    });
+  }
   // By s the mesh moves under the place: differences, as the element may be another one.
   for (Index k = 0; k < m; ++k) {
     const double step = 1e-6 * structure_.at(point.strand).length;
@@ -168,6 +184,11 @@ Vector SlidingStructureMesh::transferred(const MeshState& now, const SlidingMesh
         moved[unknowns[0]] = at.position.x();
         moved[unknowns[1]] = at.position.y();
         moved[unknowns[2]] = at.angle;
+      }
+      if (const auto force = last ? std::nullopt : to.axial_force(r, i)) {
+        const Index e = element_at({.strand = r, .s = to.coordinate(r, i, s_to)}, now);
+        const double free = 1.0 + structure_.at(r).thermal.strain.at(now.lambda);
+        moved[*force] = structure_.at(r).section.EA() * (node_strain(r, e, At::behind, now).stretch - free);
       }
     }
   return moved;

@@ -222,6 +222,30 @@ void add_slides(const PointAtHand& at, Index n, Triplets& K) {
   }
 }
 
+double greatest_stiffness(const PointAtHand& at) {
+  double greatest = 0.0;
+  for (const Potential& potential : at.potentials)
+    greatest = std::max(greatest, potential.stiffness.cwiseAbs().maxCoeff());
+  return greatest;
+}
+
+// A zone whose axial force is an unknown: a bar, or where it has no length its ends are at one place.
+void add_straight(const Potential& potential, double greatest, SecondVariation& sum) {
+  constexpr double no_length = 1e-9;  // of what gives way elsewhere
+  const std::vector<Index> ends(potential.unknowns.begin(), potential.unknowns.end() - 1);
+  const Vector of_length = potential.stiffness.col(6).head(6);
+  const double compliance = -potential.stiffness(6, 6);
+  Matrix K = potential.stiffness.topLeftCorner(6, 6);
+  if (compliance * greatest > no_length) {
+    K += of_length * of_length.transpose() / compliance;
+  } else {
+    sum.all.push_back({ends, of_length});
+    sum.strong.push_back({ends, of_length});
+  }
+  add_block(sum.K, ends, K);
+  sum.K.emplace_back(potential.unknowns.back(), potential.unknowns.back(), 1.0);
+}
+
 enum class Supports { held, dead };  // those that λ moves, or their forces in their place
 
 // What walls touch from opposite sides cannot move across them, with or without a force.
@@ -229,7 +253,9 @@ SecondVariation second_variation(const PointAtHand& at, Supports supports) {
   const auto slides = static_cast<Index>(at.touches.pinched.size());
   const Index without = structure_unknowns(at.model, at.point.state) + (supports == Supports::dead ? 1 : 0);
   SecondVariation sum{.unknowns = without + slides};
-  for (const Potential& potential : at.potentials) add_block(sum.K, potential.unknowns, potential.stiffness);
+  for (const Potential& potential : at.potentials)
+    potential.unknowns.size() == 7 ? add_straight(potential, greatest_stiffness(at), sum)
+                                   : add_block(sum.K, potential.unknowns, potential.stiffness);
   if (supports == Supports::dead) add_moved_supports(at, without - 1, sum.K);
   if (slides > 0) add_slides(at, without, sum.K);
   for (const Touch& touch : at.touches.all) {

@@ -3,6 +3,7 @@
 #include "apps/verify/differences.hpp"
 #include "apps/verify/line_energy.hpp"
 #include "apps/verify/potential_rooms.hpp"
+#include "core/unit_tangent.hpp"
 
 namespace arcwall::verify {
 
@@ -81,6 +82,37 @@ LocalEnergy load_on_chord(const Stretch& stretch, const EndsMotion& motion, doub
   return out;
 }
 
+// A zone without elements: N (ℓ − (1 + e) d) − ½ N² d/EA and the energy of a section that is held straight, ℓ from end
+// to end in the direction of both. The last unknown is N.
+LocalEnergy straight_energy(const PlainStiffness& section, const FreeDeformation& free, double d, double N,
+                            const AxisPlace& first, const AxisPlace& second) {
+  const double angle = 0.5 * (first.angle + second.angle);
+  const Vec2 t = unit_tangent(angle), n(-t.y(), t.x()), chord = second.position - first.position;
+  const double length = t.dot(chord), moment = section.EI * free.curvature;
+  LocalEnergy out(7);
+  out.energy = N * (length - (1.0 + free.strain) * d) - 0.5 * N * N * d / section.EA +
+               moment * (0.5 * free.curvature * d - (second.angle - first.angle));
+  Vector of_length(6);
+  of_length << -t, 0.5 * n.dot(chord), t, 0.5 * n.dot(chord);
+  out.gradient.head(6) = N * of_length;
+  out.gradient[2] += moment;
+  out.gradient[5] -= moment;
+  out.gradient[6] = length - (1.0 + free.strain + N / section.EA) * d;
+  for (const Index turn : {2, 5}) {
+    for (const Index other : {2, 5}) out.stiffness(turn, other) = -0.25 * N * length;
+    for (Index i = 0; i < 2; ++i)
+      for (const Index end : {0, 3}) {
+        const double by_both = (end == 0 ? -0.5 : 0.5) * N * n[i];
+        out.stiffness(turn, end + i) += by_both;
+        out.stiffness(end + i, turn) += by_both;
+      }
+  }
+  out.stiffness.col(6).head(6) = of_length;
+  out.stiffness.row(6).head(6) = of_length.transpose();
+  out.stiffness(6, 6) = -d / section.EA;
+  return out;
+}
+
 // What all elements of a state share.
 struct SlidingElements {
   const SlidingStructure& body;
@@ -101,6 +133,10 @@ LocalEnergy energy_of(const SlidingElements& of, Index strand, Index position) {
                                .section = part.member.section_between(part.first, part.last),
                                .free = free};
   const AxisPlace first = mesh.node(strand, position, now), second = mesh.node(strand, position + 1, now);
+  if (const auto force = mesh.axial_force(strand, position)) {
+    free.curvature = body.natural_curvature({.strand = strand, .s = 0.5 * (S1 + S2)}, now.lambda);
+    return straight_energy(element.section(0.5), free, S2 - S1, now.x[*force], first, second);
+  }
   const Vec2 rest = body.undeformed({.strand = strand, .s = S1}, true).position;
   const EndsMotion motion{.first = first.position - rest,
                           .second = second.position - rest - part.stretch.chord,
@@ -138,6 +174,7 @@ std::vector<Potential> sliding_potentials(const Model& model, const PlainMembers
       Potential potential;
       for (const Index end : {position, position + 1})
         for (const Index unknown : mesh.node_unknowns(strand, end)) potential.unknowns.push_back(unknown);
+      if (const auto force = mesh.axial_force(strand, position)) potential.unknowns.push_back(*force);
       static_cast<LocalEnergy&>(potential) = energy_of(of, strand, position);
       all.push_back(std::move(potential));
     }

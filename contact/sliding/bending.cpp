@@ -393,6 +393,24 @@ bool lies_by_itself(const SlidingSetting& setting, const SlidingState& at, std::
   return lies_by_itself(setting, at, held_axis(setting, at, point));
 }
 
+bool lies_without_elements(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  const HeldAxis held = held_axis(setting, at, point);
+  const SlidingObstacle& obstacle = setting.obstacles[held.touch.obstacle];
+  const MaterialPoint here{.strand = held.touch.strand, .s = held.s};
+  const SectionStiffness rate = setting.body.stiffness(here, 1);
+  const double L = setting.body.length(here.strand);
+  const bool is_uniform = rate.EA == 0.0 && rate.EI == 0.0 &&
+                          std::abs(setting.body.natural_curvature_derivative(here, 1)) * L * L <= zero_rate;
+  const auto is_loaded = [&](double lambda) {
+    HeldAxis there = held;
+    there.lambda = lambda;
+    return load_on(setting, there, 0.0).norm() > 0.0;
+  };
+  return lies_by_itself(setting, at, held) && obstacle.surface->knots().empty() &&
+         obstacle.friction(here.strand) == 0.0 && is_uniform && !is_loaded(held.lambda - 1.0) &&
+         !is_loaded(held.lambda) && !is_loaded(held.lambda + 1.0);
+}
+
 Vector border_rates(const SlidingSetting& setting, const SlidingState& at) {
   Vector rates = Vector::Zero(at.index.points);
   for (Index k = 0; k < rates.size(); ++k) {

@@ -108,4 +108,9 @@ bool lies_by_itself(const SlidingSetting& setting, const SlidingState& at, std::
 /// 0 where the tilt is held: the body lies on the wall or is about to. See Linearization::border_rates.
 Vector border_rates(const SlidingSetting& setting, const SlidingState& at);
 
+/// Whether a part about a point that lies on a wall by itself needs no elements: nothing but its axial force, which is
+/// one number, and the moment that holds it straight, are in it. Two edges that stick at one place would leave the
+/// force open.
+bool lies_without_elements(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
+
 }  // namespace arcwall::sliding

@@ -195,7 +195,7 @@ void lay_out(const SlidingSetting& setting, const SlidingState& at, Linearizatio
     out.holding.push_back(at.index.moment(k));
     out.energetic.push_back(at.layout.is_pinched(static_cast<std::size_t>(k)));
   }
-  out.K = with_rows_behind(out.inner->K, entries, at.index.multipliers());
+  out.K = with_rows_behind(out.inner->K, entries, at.index.behind_mesh());
   out.pattern_of = at.state.active_set;
 }
 

@@ -57,8 +57,8 @@ std::size_t LayoutEdit::segment_before(std::size_t point) const {
   return place;
 }
 
-int& LayoutEdit::segment(std::size_t point, std::size_t beyond) {
-  return elements[static_cast<std::size_t>(strands[point])][segment_before(point) + beyond].elements;
+MeshSegment& LayoutEdit::segment(std::size_t point, std::size_t beyond) {
+  return elements[static_cast<std::size_t>(strands[point])][segment_before(point) + beyond];
 }
 
 LayoutEdit::Part LayoutEdit::part_at(Index strand, double place) const {
@@ -205,7 +205,7 @@ std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elem
   insert_at(in_strand, place, MeshSegment(elements_before));
   std::size_t k = 0;
   while (k < points.size() &&
-         (strands[k] < entry.strand || (strands[k] == entry.strand && s[static_cast<Index>(k)] < entry.s)))
+         (strands[k] < entry.strand || (strands[k] == entry.strand && s[static_cast<Index>(k)] <= entry.s)))
     ++k;
   SlidingContactLayout::Point point = entry.point;
   if (k < points.size() && strands[k] == entry.strand) begins_nothing(points[k]);
@@ -345,8 +345,9 @@ struct Part {
   Index strand;
   double from, to;
   bool has_point;  // at one of its ends
-  int undivided;   // of a point that waits at its end; 0: none does
-  bool waits;      // a point that waits is at one of its ends
+  bool between_points;
+  int undivided;  // of a point that waits at its end; 0: none does
+  bool waits;     // a point that waits is at one of its ends
   Span span;
   bool neutral;
 };
@@ -376,6 +377,7 @@ std::vector<Part> parts_of(LayoutEdit& edit) {
                        .from = from,
                        .to = to,
                        .has_point = from_point || to_point,
+                       .between_points = from_point && to_point,
                        .undivided = undivided,
                        .waits = from_waiting || undivided > 0,
                        .span = span,
@@ -522,6 +524,9 @@ std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit) {
   const std::vector<Part> parts = parts_of(edit);
   give_middles(parts);
   hand_loads_on(edit, parts);
+  for (const Part& part : parts)
+    part.segment->straight =
+        part.segment->straight && part.between_points && part.span == Span::flat && part.segment->elements == 1;
   return std::make_shared<SlidingContactLayout>(edit.body, edit.body.mesh(edit.elements), edit.points, edit.s,
                                                 edit.lying, edit.end_rubbings);
 }

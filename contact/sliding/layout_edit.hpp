@@ -31,8 +31,11 @@ struct LayoutEdit {
   std::vector<double> end_frictions{}, ends_held{};  ///< as those of the points
 
   /// Elements of the segment before a point, and of that behind it.
-  int& elements_before(std::size_t point) { return segment(point); }
-  int& elements_behind(std::size_t point) { return segment(point, 1); }
+  int& elements_before(std::size_t point) { return segment(point).elements; }
+  int& elements_behind(std::size_t point) { return segment(point, 1).elements; }
+
+  /// Lets the one element behind a point lie straight, as long as that part is flat and has no other.
+  void straighten_behind(std::size_t point) { segment(point, 1).straight = true; }
 
   double& place(std::size_t point) { return s[static_cast<Index>(point)]; }
 
@@ -107,7 +110,7 @@ struct LayoutEdit {
   void settle_undivided(Index strand, std::size_t place);
 
   bool is_first_of_strand(std::size_t point) const { return point == 0 || strands[point - 1] != strands[point]; }
-  int& segment(std::size_t point, std::size_t beyond = 0);
+  MeshSegment& segment(std::size_t point, std::size_t beyond = 0);
   std::size_t segment_before(std::size_t point) const;
 };
 

@@ -130,6 +130,10 @@ std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting&
     };
     if (in_strand.empty() || in_strand.back().ends_at_load()) return nullptr;
     if (std::any_of(in_strand.begin(), in_strand.end(), wrong)) return nullptr;
+    for (std::size_t i = 0; i < in_strand.size(); ++i)
+      if (in_strand[i].straight && (i == 0 || i + 1 == in_strand.size() || in_strand[i].elements != 1 ||
+                                    in_strand[i].ends_at_load() || in_strand[i - 1].ends_at_load()))
+        return nullptr;
     double before = 0.0;
     for (std::size_t i = 0; i + 1 < in_strand.size(); ++i) {
       if (!in_strand[i].ends_at_load() && k == origin.size()) return nullptr;

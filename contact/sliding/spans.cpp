@@ -74,6 +74,8 @@ double shortest_of_kind(const SlidingSetting& setting, const SlidingState& at, s
 
 double shortest_span(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const SlidingContactLayout& on = at.layout;
+  const auto [strand, position] = at.mesh.breakpoint(static_cast<Index>(point));
+  if (at.mesh.axial_force(strand, position)) return 0.0;
   const bool before = on.span_before(point) == Span::pressed, behind = on.points()[point + 1].behind == Span::pressed;
   return shortest_of_kind(setting, at, point, on.points()[point].behind, before, behind);
 }

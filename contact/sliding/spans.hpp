@@ -55,7 +55,7 @@ double shortest_sure_arch(const SlidingSetting& setting, const HeldAxis& held, d
 /// contact as near to it as it is large.
 double shortest_tail(const SlidingBody& body, Index strand);
 
-/// The same of the span behind a tracked point.
+/// The same of the span behind a tracked point; 0 of one without elements.
 double shortest_span(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
 /// The same of the half span between a tracked point and the plane of symmetry at an end of its strand.

@@ -215,7 +215,7 @@ std::size_t spread_from(const SlidingSetting& setting, const SlidingState& at, c
 // one; `neutral`: spans beside them that are then. Where the body lies by itself the part is flat, but for one with a
 // point load inside, which is handed on as a pressed one does.
 Transition spread(const SlidingSetting& setting, const SlidingState& at, const Points& points, const Planes& planes,
-                  Span between, double length, const NeutralSides* neutral = nullptr) {
+                  Span between, double length, const NeutralSides* neutral = nullptr, bool without_elements = false) {
   LayoutEdit edit = edit_of(setting.body, at);
   if (neutral != nullptr) {
     make_neutral(*neutral, edit);
@@ -243,6 +243,7 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
                  .force = end.force * force},
                 between_them, behind);
     edit.points[*k].behind = span;
+    if (without_elements) edit.straighten_behind(*k);
     friction_of_point_at(setting, at, *k, s).give_to_point(*k, 1.0 - end.force, edit);
     friction_of_point_at(setting, at, *k, s + length).give_to_point(*k + 1, end.force, edit);
   }
@@ -359,11 +360,15 @@ double first_length(const SlidingSetting& setting, const SlidingState& at, const
 // come, so that it must hold at a quarter of its length, too. At a plane of symmetry the pressure is as great before it
 // as behind it, and has one sign there.
 std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points,
-                                const Planes& planes) {
+                                const Planes& planes, bool is_neutral) {
   constexpr double shorter = 0.6, sure = 0.25;
   constexpr std::array factors{1.0, 2.0, 4.0, 8.0, 16.0};
   const std::vector<HeldAxis> held = held_axes(setting, at, points, planes);
   const double length = first_length(setting, at, points, held.front());
+  if (!is_neutral && planes.empty() &&
+      std::all_of(points.begin(), points.end(), [&](std::size_t k) { return lies_without_elements(setting, at, k); }))
+    return {spread(setting, at, points, planes, Span::flat, 0.0, nullptr, true),
+            spread(setting, at, points, planes, Span::flat, length, nullptr, true)};
   const auto is_all = [&](const auto& holds) { return std::all_of(held.begin(), held.end(), holds); };
   const auto lifts_off_straight = [&](const HeldAxis& axis) {
     return holding_pressure(setting, at, axis) < 0.0 && obstacle_curvature(setting, at, axis.touch) == 0.0;
@@ -418,12 +423,14 @@ Planes planes_without_curvature(const SlidingSetting& setting, const SlidingStat
 // A structure that is symmetric but for what hardly counts, as soft springs do, has points that lose their curvature so
 // soon after each other that none is found between: all of them may spread then.
 std::vector<Transition> spreads_with_those_near(const SlidingSetting& setting, const SlidingState& at,
-                                                const Points& points, const Planes& planes, const Arrival& arrival) {
-  std::vector<Transition> transitions = spreads(setting, at, points, planes);
+                                                const Points& points, const Planes& planes, const Arrival& arrival,
+                                                bool is_neutral) {
+  std::vector<Transition> transitions = spreads(setting, at, points, planes, is_neutral);
   const Points all = points_without_curvature(
       setting, at, {.forward = arrival.forward, .tolerance = reached_in_weak_asymmetry, .at_hand = arrival.at_hand});
   if (all.size() > points.size())
-    for (Transition& transition : spreads(setting, at, all, planes)) transitions.push_back(std::move(transition));
+    for (Transition& transition : spreads(setting, at, all, planes, is_neutral))
+      transitions.push_back(std::move(transition));
   transitions.push_back(unsupported(why_none_spreads(setting, at, points, planes)));
   return transitions;
 }
@@ -539,7 +546,7 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
   if (is_continuum) {
     transitions.push_back(end_before(common));
   } else {
-    transitions = spreads_with_those_near(setting, at, points, planes, arrival);
+    transitions = spreads_with_those_near(setting, at, points, planes, arrival, is_neutral);
     if (auto lie_down = spans_lie_down(setting, at, points, arrival.forward)) {
       // A part that has just begun to buckle is straight, too: a flat one is the last that is tried.
       const bool is_flat = lie_down->from_singular;

@@ -7,6 +7,7 @@ namespace arcwall {
 SlidingUnknowns::SlidingUnknowns(const ActiveSet& active_set) : active_set_(&active_set) {
   const SlidingContactLayout& layout = sliding_layout(active_set);
   nodes = layout.mesh().unknowns();
+  straights = layout.mesh().axial_forces();
   closed = active_set.closed_count();
   pressed = static_cast<Index>(layout.pressed_nodes().size());
   neutral = static_cast<Index>(layout.neutral_spans().size());

@@ -12,6 +12,7 @@ namespace arcwall {
 /// Where the unknowns of an active set of sliding contact stand in State::x, one block behind the other:
 ///
 ///     x   `nodes`    positions and rotations of the mesh's nodes              unknowns of the mesh
+///     N              of these the last, `straights`: axial forces             multipliers
 ///     p   `closed`   forces of the closed contacts, in the active set's order      multipliers, with −g = 0
 ///     p   `pressed`  forces of the pressed nodes, in the layout's order       multipliers, with −g = 0
 ///     p   `neutral`  forces that hold the middles of neutral spans            multipliers, with −c = 0
@@ -29,17 +30,19 @@ class SlidingUnknowns {
   /// `active_set` must outlive this.
   explicit SlidingUnknowns(const ActiveSet& active_set);
 
-  Index nodes = 0;    ///< entries of x
-  Index closed = 0;   ///< forces of closed contacts
-  Index pressed = 0;  ///< forces of pressed nodes
-  Index neutral = 0;  ///< neutral spans
-  Index pinched = 0;  ///< pinched points
-  Index tips = 0;     ///< pressed tips
-  Index rubbing = 0;  ///< closed contacts with friction
-  Index points = 0;   ///< tracked points
+  Index nodes = 0;      ///< entries of x, with those of N
+  Index straights = 0;  ///< entries of N
+  Index closed = 0;     ///< forces of closed contacts
+  Index pressed = 0;    ///< forces of pressed nodes
+  Index neutral = 0;    ///< neutral spans
+  Index pinched = 0;    ///< pinched points
+  Index tips = 0;       ///< pressed tips
+  Index rubbing = 0;    ///< closed contacts with friction
+  Index points = 0;     ///< tracked points
 
-  Index multipliers() const { return closed + pressed + neutral + pinched + tips + rubbing + points; }
-  Index of_K() const { return nodes + multipliers(); }
+  Index behind_mesh() const { return closed + pressed + neutral + pinched + tips + rubbing + points; }
+  Index multipliers() const { return straights + behind_mesh(); }
+  Index of_K() const { return nodes + behind_mesh(); }
   Index border() const { return rubbing + points; }
   Index size() const { return of_K() + border(); }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "continuation/events/target_values.hpp"
@@ -15,9 +16,13 @@ bool leads_on(Transition::Change change) {
          change != Transition::Change::blocked;
 }
 
+bool begins_without_length(const Transition& transition) {
+  return transition.change == Transition::Change::spreads && transition.quantity && transition.value == 0.0;
+}
+
 bool begins_with_length(const Transition& transition) {
   const Transition::Change change = transition.change;
-  return change == Transition::Change::spreads ||
+  return (change == Transition::Change::spreads && !begins_without_length(transition)) ||
          (change == Transition::Change::splits && transition.quantity != nullptr) ||
          (change == Transition::Change::passes && transition.value > 0.0);
 }
@@ -365,6 +370,30 @@ bool is_known_by_state(const Transition& transition) {
   return !transition.quantity && (is_known_ahead(transition.change) || transition.change == Transition::Change::splits);
 }
 
+// Whether no guard that vanishes where zones begin falls from there on: another of them would shrink.
+bool zones_grow(const TraceTools& tools, const PathPoint& at) {
+  const double tolerance = tools.options.guard_tolerance;
+  for (auto j = static_cast<Index>(at.state.active_set.size()); j < at.guards.size(); ++j)
+    if (std::abs(at.guards[j]) <= tolerance && at.guard_rates[j] < -tolerance) return false;
+  return true;
+}
+
+// Whether a branch begins together with zones of no length: between there and a length the count changes, by an
+// eigenvalue that is zero where they begin, as nearly as points there can be told apart. What is left of it is the
+// error of the mesh, and its sign says nothing; that behind the change is the sign of its rate.
+bool begins_with_branch(TraceTools& tools, PathPoint at, const PathPoint& with_length, double lambda_scale) {
+  const std::optional<Index> behind = with_length.negative_eigenvalues;
+  if (!at.negative_eigenvalues || !behind) return true;
+  if (*at.negative_eigenvalues == *behind) return false;
+  const Metric metric = tools.metric_on(at.state.active_set, lambda_scale);
+  PathPoint ahead = with_length;
+  find_pairs(tools, metric, at);
+  find_pairs(tools, metric, ahead);
+  if (at.nearest.values.size() == 0 || ahead.nearest.values.size() == 0) return true;
+  const double here = at.nearest.values[0], rate = ahead.nearest.values[0] - here;
+  return std::abs(here) * metric.distance(at.state, ahead.state) <= singular_point_accuracy * std::abs(rate);
+}
+
 // Whether a change lies where a quantity has a value, at which it is sought with patience before the transitions that
 // come next are tried: one of them may leap over it.
 bool is_sought(const Transition& transition) {
@@ -403,6 +432,13 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
       if (!at) continue;
       if (is_known_by_state(transition)) at = in_sense_of_counts(tools, before, from, std::move(*at));
       if (!at) continue;
+      // Counts that do not agree tell of a branch point in the corner. There the equations ahead are singular, too: the
+      // branch is told from where the zone has a length.
+      if (begins_without_length(transition)) {
+        if (!zones_grow(tools, *at) || !agrees_with_counts(before, from, *at)) continue;
+        const auto with_length = enter(tools, *std::next(&transition), from, lambda_scale, taken);
+        if (with_length && begins_with_branch(tools, *at, *with_length, lambda_scale)) continue;
+      }
       Entered entered{.transition = &transition, .at = std::move(*at), .strategies = strategies_of(transition, taken)};
       const bool is_gathered = transition.change == Transition::Change::gathers && transition.quantity;
       const bool has_length = begins_with_length(transition);

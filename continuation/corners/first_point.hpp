@@ -14,6 +14,9 @@ bool leads_on(Transition::Change change);
 /// Whether the first point on the active set ahead lies a little beyond the bound, with a new stretch of some length.
 bool begins_with_length(const Transition& transition);
 
+/// Whether it is the point at the bound itself, at which a new zone has no length.
+bool begins_without_length(const Transition& transition);
+
 /// Whether behind a bound there is the same active set on another mesh: a state beyond it is none the worse.
 bool is_of_mesh(const System& system, const State& state, const Direction& forward, Index guard, double slack);
 

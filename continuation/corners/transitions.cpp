@@ -88,7 +88,7 @@ void add_events(TraceTools& tools, const Corner& corner, const PathPoint& at, co
     const ActiveSet &before = at.state.active_set, &behind = ahead.state.active_set;
     const Index more = tools.system.separate_contacts(behind) - tools.system.separate_contacts(before);
     event.kind = kind_of(transition, more, transition.change == Transition::Change::gathers ? behind : before);
-    if (!begins_with_length(transition)) {
+    if (!begins_with_length(transition) && !begins_without_length(transition)) {
       event.state = entered.at.state;
       event.residual = entered.at.residual;
       event.lambda_uncertainty = entered.at.unsettled * corner.lambda_scale + lies_back_by(at, entered.at) +

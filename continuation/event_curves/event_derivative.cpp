@@ -101,7 +101,9 @@ EventDerivatives::EventDerivatives(const System& system, const Arc& arc, const E
     condition_ = Condition::turning;
   }
   if (!why_none_.empty()) return;
-  const bool begun = condition_ == Condition::crossing ? begin_crossing(*crossing) : begin_regular(arc.to.tangent);
+  const bool arrives = arc.arrives && arc.arrives->state.active_set == event.state.active_set;
+  const Direction& along = arrives ? arc.arrives->tangent : arc.to.tangent;
+  const bool begun = condition_ == Condition::crossing ? begin_crossing(*crossing) : begin_regular(along);
   if (!begun && why_none_.empty()) why_none_ = "the equations are singular at the event";
 }
 

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr std::string_view any_version = "arcwall checkpoint ", first_line = "arcwall checkpoint 30\n";
+constexpr std::string_view any_version = "arcwall checkpoint ", first_line = "arcwall checkpoint 31\n";
 constexpr std::size_t length_bytes = 8, crc_bytes = 4, head_bytes = first_line.size() + length_bytes + crc_bytes;
 
 // Little-endian whatever the machine.

@@ -32,7 +32,7 @@ void parts(Archive& archive, SlidingContactLayout::Point& point) {
 
 template <typename Archive>
 void parts(Archive& archive, MeshSegment& segment) {
-  archive(segment.elements, segment.load, segment.pressed, segment.handed_on);
+  archive(segment.elements, segment.load, segment.pressed, segment.handed_on, segment.straight);
 }
 
 template <typename Archive>

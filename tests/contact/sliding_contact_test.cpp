@@ -128,6 +128,64 @@ std::vector<test::TestWall> two_of(const std::vector<test::TestWall>& walls, std
 
 }  // namespace
 
+namespace {
+
+// A beam along an arc of a circle, warm and bent by λ, so that nothing but its ends distinguishes one place of it.
+StructureBuilder round_beam(Theory theory) {
+  StructureBuilder builder;
+  const Vec2 a(0.0, 0.0), b(2.0, 0.1);
+  builder.add_joint(a);
+  builder.add_joint(b);
+  const Index beam = builder.add_member({.name = "beam",
+                                         .from = 0,
+                                         .to = 1,
+                                         .axis = arc_axis(a, {1.0, 0.2}, b),
+                                         .theory = theory,
+                                         .order = 4,
+                                         .section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2},
+                                         .elements = 7});
+  builder.add_thermal_strain(
+      beam, {.strain = {.constant = 0.01, .proportional = 0.02}, .curvature = {.constant = 0.1, .proportional = 0.2}});
+  builder.fix(builder.dof(0, Dof::x));
+  builder.fix(builder.dof(0, Dof::z));
+  builder.fix(builder.shared_rotation(0).value());
+  builder.add_load(builder.dof(1, Dof::x), -2.0, LoadKind::proportional);
+  return builder;
+}
+
+MeshSegment straight_segment() {
+  MeshSegment segment(1);
+  segment.straight = true;
+  return segment;
+}
+
+}  // namespace
+
+// Also where the zone has no length, or less. Rates by temperature have round-off of 1e-7 in any element.
+TEST(SlidingContact, DerivativesAreConsistentInAZoneWithoutElements) {
+  Numbers numbers(83);
+  const Layouts on{"a zone without elements",
+                   {3, straight_segment(), 3},
+                   {{.obstacle = 0, .behind = Span::flat}, {.obstacle = 0}},
+                   {0.3, 0.65},
+                   {1, 1}};
+  for (const Theory theory : {Theory::euler_bernoulli, Theory::elastica}) {
+    const SlidingModel model(round_beam(theory), two_of(test::all_walls(false), 0), 0.1);
+    State state = random_state(model, active_set_of(model, on), numbers);
+    ASSERT_EQ(mesh_of(state).axial_forces(), 1);
+    const Index last = state.x.size() - 1;
+    for (const double length : {0.35, 0.0, -0.01}) {
+      state.x[last] = state.x[last - 1] + length;
+      const auto report = check_derivatives(model.system(), state, 1e-6);
+      EXPECT_LE(report.K, 1e-9) << length;
+      EXPECT_LE(report.F_lambda, 1e-6) << length;
+      EXPECT_EQ(report.consistency, 0.0) << length;
+      EXPECT_LE(report.energy, 1e-7) << length;
+      EXPECT_LE(report.guard_gradient, 1e-6) << length;
+    }
+  }
+}
+
 // Central differences of fourth order and step 1e-6: round-off 1e-10 of the greatest entry; a thousand times that in
 // guards, which are of order 1 where entries of short elements are of order 1000. Of these a wrong one shows with
 // either of two steps, and round-off with the shorter one alone.

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "contact/sliding/bending.hpp"
 #include "contact/sliding/part_loads.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
@@ -145,7 +146,13 @@ Row StraightBound::gradient(const SlidingSetting& setting, const SlidingState& a
 
 std::vector<Transition> StraightBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                    const Arrival& arrival) const {
-  return {with_elements(setting, at, arrival.forward, segment_, 1)};
+  const SlidingContactLayout::Segment& part = at.layout.segments()[segment_];
+  return {remeshed(setting, at, arrival.forward, [&](LayoutEdit& edit, const SlidingState&) {
+    edit.elements[static_cast<std::size_t>(part.strand)][part.place].elements = 1;
+    if (part.first_point >= 0 && lies_without_elements(setting, at, static_cast<std::size_t>(part.first_point)))
+      edit.straighten_behind(static_cast<std::size_t>(part.first_point));
+    divide_evenly(edit);
+  })};
 }
 
 // Only of parts that no pressure holds on the wall.
