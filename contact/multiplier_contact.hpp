@@ -90,6 +90,9 @@ class MultiplierContact final : public System, public FrictionalContact, public 
   ContactPlace place_rates(const State& state, const Direction& direction, Index j) const override;
   std::optional<Index> force_index(const ActiveSet& active_set, Index j) const override;
   std::optional<Index> friction_index(const ActiveSet& active_set, Index j) const override;
+  HeldPlace held_place(const ActiveSet& active_set, Index j) const override {
+    return {.equation = friction_index(active_set, j).value(), .by_slip = -1.0};
+  }
   std::optional<ModeOfContact> beyond_friction_bound(const ActiveSet& active_set, Index guard) const override;
   State with_modes(const State& state, std::span<const ModeOfContact> modes) const override;
 

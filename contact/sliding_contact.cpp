@@ -365,6 +365,10 @@ std::optional<Index> SlidingContact::friction_index(const ActiveSet& active_set,
   return SlidingUnknowns(active_set).friction(static_cast<std::size_t>(j));
 }
 
+FrictionalContact::HeldPlace SlidingContact::held_place(const ActiveSet& active_set, Index j) const {
+  return {.equation = SlidingUnknowns(active_set).place(static_cast<std::size_t>(j)).value(), .by_slip = 1.0};
+}
+
 double SlidingContact::friction_force(const State& state, Index j) const {
   const auto T = friction_index(state.active_set, j);
   return T ? state.x[*T] : 0.0;

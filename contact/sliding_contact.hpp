@@ -89,6 +89,7 @@ class SlidingContact final : public System, public ContactQuery, public Friction
   ContactPlace place_rates(const State& state, const Direction& direction, Index j) const override;
   std::optional<Index> force_index(const ActiveSet& active_set, Index j) const override;
   std::optional<Index> friction_index(const ActiveSet& active_set, Index j) const override;
+  HeldPlace held_place(const ActiveSet& active_set, Index j) const override;
   double friction_force(const State& state, Index j) const override;
   std::optional<ModeOfContact> beyond_friction_bound(const ActiveSet& active_set, Index guard) const override;
   State with_modes(const State& state, std::span<const ModeOfContact> modes) const override;

@@ -79,6 +79,14 @@ class FrictionalContact {
   virtual std::optional<Index> force_index(const ActiveSet& active_set, Index j) const = 0;
   virtual std::optional<Index> friction_index(const ActiveSet& active_set, Index j) const = 0;
 
+  /// Returns the equation that holds the place of a contact that sticks, in F, and by how much its value changes a unit
+  /// of slip along the obstacle's tangent.
+  struct HeldPlace {
+    Index equation = 0;
+    double by_slip = 0.0;
+  };
+  virtual HeldPlace held_place(const ActiveSet& active_set, Index j) const = 0;
+
   /// Returns the friction force T of a contact along the obstacle's tangent, on the structure [force].
   virtual double friction_force(const State& state, Index j) const = 0;
 
