@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "continuation/corners/corner.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/step/point_on_path.hpp"
 #include "core/root_find.hpp"
@@ -77,6 +78,14 @@ bool lands_where_it_began(const StepOrigin& origin, double tolerance, const Path
          origin.metric.distance(at.state, from.state) <= coincidence_tolerance;
 }
 
+// A contact that sticks at its bound, to round-off, as a step begins, and would slip: where the bound falls slowly its
+// zero lies behind.
+bool would_slip_at_once(const TraceTools& tools, const StepOrigin& origin, Index guard) {
+  const PathPoint& from = origin.point();
+  return is_friction_bound(tools.system, from.state.active_set, guard) &&
+         std::abs(from.guards[guard]) <= tools.options.guard_tolerance && from.guard_rates[guard] < 0.0;
+}
+
 // Where a continuum of equilibria lies ahead, the equations are singular at the change: see Transition::from_singular.
 bool is_singular_change(const TraceTools& tools, const PathPoint& at, const Landing& landing) {
   constexpr double singular = 1e-6;  // in the scale of guards
@@ -91,6 +100,8 @@ LandedStep land_on(TraceTools& tools, const StepOrigin& origin, const StepEnd& e
   const double tolerance = tools.options.guard_tolerance;
   const Segment segment(origin.metric, origin.point(), end.point);
   CorrectedPoint at = correct_onto(tools, origin, GuardConstraint(tools.system, crossing.guard), segment, crossing.t);
+  if (!at.point && would_slip_at_once(tools, origin, crossing.guard))
+    return {.end = StepEnd{.point = origin.point(), .landing = Landing{.guard = crossing.guard}}};
   if (!at.point || lands_where_it_began(origin, tolerance, *at.point, crossing.guard))
     return {.end = std::nullopt, .failure = at.status};
   Landing landing{.guard = crossing.guard, .slack = slack_at(tools.options, origin, *at.point)};
