@@ -1,7 +1,6 @@
 #include "model/build_contact.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -99,9 +98,13 @@ Index motions(const Candidate& candidate, const State& rest) {
   constexpr double least = 1e-9;  // of the motion
   PointKinematics at;
   candidate.rubbing_point().kinematics(rest, at);
-  const Eigen::MatrixXd jacobian = at.jacobian;
-  if (jacobian.cols() == 0) return 0;
-  return (Eigen::JacobiSVD<Eigen::MatrixXd>(jacobian).singularValues().array() > least).count();
+  // The singular values of its two rows, of which the lesser keeps its digits.
+  const Vector x = at.jacobian.row(0), z = at.jacobian.row(1);
+  const double a = x.squaredNorm(), c = z.squaredNorm(), b = x.dot(z);
+  const double greater = std::sqrt(0.5 * (a + c) + std::hypot(0.5 * (a - c), b));
+  if (greater <= least) return 0;
+  const Vector across = a < c ? Vector(x - b / c * z) : Vector(z - b / a * x);
+  return across.norm() * std::sqrt(std::max(a, c)) / greater > least ? 2 : 1;
 }
 
 // Whether the structure may move a point along a wall, besides across it: else what holds it there bears the friction.
