@@ -242,7 +242,7 @@ void Explorer::look_at(const Event& event) {
     if (takes_every_way())
       for (const BranchPoint::Way& way : point.ways)
         enqueue(event, start_along(system_, event, way, options_.distance), 1, false);
-    return;  // the tracer has taken the one that `follow` wants
+    return;  // the tracer has taken the one that `most_stable` or `jump` wants
   }
   const bool ahead_is_stable = event.unstable_after == Index{0} && !mirror_ahead;
   const bool nothing_is_known = system_.counted_directions(point.state.active_set) == CountedDirections::some;
@@ -327,7 +327,7 @@ void Explorer::leave(const Event& event, const BranchPoint& point, const std::ve
           {.reason = EndReason::reached_branch, .detail = "joins the branch from which it and its mirror image leave"});
     return;
   }
-  // follow: the way with fewest unstable directions; of equals the preferred side
+  // `most_stable` and `jump`: the way with fewest unstable directions; of equals the preferred side
   const auto rank = [&](const TriedWay& way) {
     return std::pair(way.count.unstable.value_or(std::numeric_limits<Index>::max()), way.sign == preferred ? 0 : 1);
   };

@@ -21,13 +21,13 @@ struct Continuum {
 /// Describes the next active set and layout beyond a validity bound.
 struct Transition {
   enum class Change {
-    spreads,      ///< a contact point becomes a contact zone
-    gathers,      ///< a contact zone becomes a contact point; only the new layout locates it
-    splits,       ///< a contact zone separates in its interior
-    passes,       ///< a contact at the end of a member moves inside, or one that has come to it stays there
-    joins,        ///< the reverse, or a whole tail is touched; the place is known on the active set ahead alone
-    remeshed,     ///< the same point with other unknowns
-    continuum,    ///< a family of equilibria with the same load and energy
+    spreads,    ///< a contact point becomes a contact zone, an arch between two points, or both
+    gathers,    ///< a contact zone becomes a contact point; only the new layout locates it
+    splits,     ///< a contact zone separates in its interior
+    joins,      ///< the reverse, or a whole tail or a tip is touched; the place is known on the active set ahead alone
+    passes,     ///< a contact at the end of a member moves inside, or one that has come to it stays there
+    remeshed,   ///< the same point with other unknowns
+    continuum,  ///< a family of equilibria with the same load and energy
     unsupported,  ///< a contact configuration that is not modelled
     blocked,      ///< nothing: a wall has come to a place that supports hold
   };
@@ -35,7 +35,7 @@ struct Transition {
   std::string detail{};  ///< of the last three: what and why
   /// That lies ahead, of which the active set ahead, where there is one, keeps one member.
   std::optional<Continuum> continuum{};
-  /// That change: in the active set behind; of `gathers`, of `joins`, and of `splits` without a quantity in the active
+  /// That change: in the active set before; of `gathers`, of `joins`, and of `splits` without a quantity in the active
   /// set ahead.
   std::vector<Index> contacts{};
   Deferred<State> guess{};  ///< on the active set ahead, near the first point there; may be made when it is tried
@@ -46,7 +46,7 @@ struct Transition {
   double value = 0.0;
   double least = 0.0;  ///< of the quantity: below that the active set is not looked at, which round-off may hide, or
                        ///< which is tried otherwise
-  /// The equations of the active set behind are singular at the change: guards that should vanish together miss each
+  /// The equations of the active set before are singular at the change: guards that should vanish together miss each
   /// other by more than elsewhere, and neither signs of eigenvalues nor the tangent are sure there.
   bool from_singular = false;
 };

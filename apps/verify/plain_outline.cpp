@@ -73,6 +73,7 @@ PlainOutline::Nearest PlainOutline::nearest(const Vec2& point) const {
             .curvature = -outside / circle->radius};
   }
   if (const auto* ellipse = std::get_if<deck::EllipseOutline>(&outline_)) return nearest_of_ellipse(*ellipse, point);
+  // A polyline or a curve: any other kind needs a case above.
   return parts_.empty() ? nearest_of_curve(point) : nearest_of_parts(point);
 }
 

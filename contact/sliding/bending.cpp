@@ -248,7 +248,7 @@ double natural_moment_first(const SlidingBody& body, const MaterialPoint& here, 
 }  // namespace
 
 // ∓ ((EI κ₀)″/Λ + q·n), q the load along the body.
-double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
+double required_pressure_on_straight_wall(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
   const SlidingBody& body = setting.body;
   const MaterialPoint here{.strand = held.touch.strand, .s = held.s + ahead};
   const double bending = natural_moment_second(body, here, held.lambda) / held.stretch;
@@ -285,15 +285,16 @@ bool pressure_vanishes_for_all_lambda(const SlidingSetting& setting, const HeldA
     there.lambda = lambda;
     double greatest = 0.0;
     for (const double fraction : {0.0, 0.5, 1.0})
-      greatest = std::max(greatest, std::abs(straight_pressure(setting, there, fraction * length - held.s)));
-    return std::abs(straight_pressure(setting, there, ahead)) <= zero_rate * greatest;
+      greatest =
+          std::max(greatest, std::abs(required_pressure_on_straight_wall(setting, there, fraction * length - held.s)));
+    return std::abs(required_pressure_on_straight_wall(setting, there, ahead)) <= zero_rate * greatest;
   };
   return is_zero(held.lambda - 1.0) && is_zero(held.lambda) && is_zero(held.lambda + 1.0);
 }
 
-// ± [(EI κ̂)″ − (EI κ₀)″/Λ + P κ̂ − q·n]. Its sign says whether the body lies on the wall there, its vanishing that it
-// does so by itself.
-double pressure_to_hold(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
+// ± [(EI κ_w)″ − (EI κ₀)″/Λ + P κ_w − q·n], p̄ of (8.7). Its sign says whether the body lies on the wall there, its
+// vanishing that it does so by itself.
+double required_pressure(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
   const SlidingBody& body = setting.body;
   const Index strand = held.touch.strand;
   const Obstacle& obstacle = *setting.obstacles[held.touch.obstacle].surface;
@@ -309,11 +310,11 @@ double pressure_to_hold(const SlidingSetting& setting, const HeldAxis& held, dou
   const SectionStiffness now = body.stiffness(here);
   const double by_wall = now.EI * wall_second + 2.0 * body.stiffness(here, 1).EI * wall_first +
                          body.stiffness(here, 2).EI * wall(0.0) - now.EA * strain * wall(0.0);
-  return straight_pressure(setting, held, ahead) + sign_of(obstacle.side()) * by_wall;
+  return required_pressure_on_straight_wall(setting, held, ahead) + sign_of(obstacle.side()) * by_wall;
 }
 
-double straight_pressure_slope(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
-  return derivative([&](double d) { return straight_pressure(setting, held, ahead + d); },
+double required_pressure_slope_on_straight_wall(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
+  return derivative([&](double d) { return required_pressure_on_straight_wall(setting, held, ahead + d); },
                     difference_step * setting.body.length(held.touch.strand));
 }
 
@@ -325,7 +326,7 @@ Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState
     const auto moved = [&](double d) {
       HeldAxis there = held;
       move(there, d);
-      return straight_pressure(setting, there, ahead);
+      return required_pressure_on_straight_wall(setting, there, ahead);
     };
     return derivative(moved, difference_step * scale);
   };
@@ -342,7 +343,8 @@ Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState
   row.dx.head(at.index.nodes) += by_stretch * strain.stretch_dx;
   row.dx.tail(at.index.points) += by_stretch * strain.stretch_ds;
   add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), Eigen::Vector3d(by_x, by_z, by_angle), row.dx);
-  if (held.point) row.dx[at.index.coordinate(*held.point)] += by_s - straight_pressure_slope(setting, held, ahead);
+  if (held.point)
+    row.dx[at.index.coordinate(*held.point)] += by_s - required_pressure_slope_on_straight_wall(setting, held, ahead);
   row.dlambda = by_lambda + by_stretch * strain.stretch_dlambda;
   return row;
 }
@@ -358,34 +360,37 @@ HeldAxis laid_axis(const SlidingSetting& setting, const SlidingState& at, HeldAx
 
 }  // namespace
 
-double holding_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  return holding_pressure(setting, at, held_axis(setting, at, point));
+double required_pressure_above_roundoff(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  return required_pressure_above_roundoff(setting, at, held_axis(setting, at, point));
 }
 
-double holding_pressure(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held) {
+double required_pressure_above_roundoff(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held) {
   const Index strand = held.touch.strand;
   const double L = setting.body.length(strand),
                noise = 1e-7 * setting.body.bending_stiffness({strand, held.s}) / (L * L * L);
-  const double q = pressure_to_hold(setting, laid_axis(setting, at, held), 0.0);
+  const double q = required_pressure(setting, laid_axis(setting, at, held), 0.0);
   return std::abs(q) > noise ? q : 0.0;
 }
 
 // What acts along the body is linear in λ, and the same but for round-off of its direction where λ does not drive it.
-double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held) {
+double required_pressure_rate_above_roundoff(const SlidingSetting& setting, const SlidingState& at,
+                                             const HeldAxis& held) {
   HeldAxis less = laid_axis(setting, at, held), more = less;
   less.lambda -= 1.0;
   more.lambda += 1.0;
-  const double rate = 0.5 * (straight_pressure(setting, more, 0.0) - straight_pressure(setting, less, 0.0));
+  const double rate = 0.5 * (required_pressure_on_straight_wall(setting, more, 0.0) -
+                             required_pressure_on_straight_wall(setting, less, 0.0));
   const double of_load = 0.5 * (load_on(setting, more, 0.0) - load_on(setting, less, 0.0)).norm();
   return std::abs(rate) > zero_rate * of_load ? rate : 0.0;
 }
 
-double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  return holding_pressure_rate(setting, at, held_axis(setting, at, point));
+double required_pressure_rate_above_roundoff(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  return required_pressure_rate_above_roundoff(setting, at, held_axis(setting, at, point));
 }
 
 bool lies_by_itself(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held) {
-  return holding_pressure(setting, at, held) == 0.0 && holding_pressure_rate(setting, at, held) == 0.0 &&
+  return required_pressure_above_roundoff(setting, at, held) == 0.0 &&
+         required_pressure_rate_above_roundoff(setting, at, held) == 0.0 &&
          obstacle_curvature(setting, at, held.touch) == 0.0;
 }
 

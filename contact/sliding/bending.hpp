@@ -69,7 +69,7 @@ HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, const 
 
 /// Force per length with which a straight obstacle holds the axis straight, `ahead` of the point along the body; > 0
 /// where it presses (8.7).
-double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, double ahead);
+double required_pressure_on_straight_wall(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 
 /// The force by which a straight obstacle holds the axis straight up to an end: its natural curvature presses the end
 /// on the obstacle where > 0 [force]; and its derivatives by the unknowns and λ.
@@ -81,7 +81,7 @@ Row bent_onto_end_gradient(const SlidingSetting& setting, const SlidingState& at
 bool pressure_vanishes_for_all_lambda(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 
 /// Its derivative along the body, at a point that stays.
-double straight_pressure_slope(const SlidingSetting& setting, const HeldAxis& held, double ahead);
+double required_pressure_slope_on_straight_wall(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 
 /// Its derivatives by all unknowns and by λ, at a place that stays the same of the body.
 Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held,
@@ -89,16 +89,17 @@ Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState
 
 /// Force per length that would hold the axis on its obstacle so far `ahead` along the body; > 0 where the obstacle
 /// would press (8.7). Exact beside a straight obstacle.
-double pressure_to_hold(const SlidingSetting& setting, const HeldAxis& held, double ahead);
+double required_pressure(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 
 /// The same where the body is parallel to the obstacle or is to become so, 0 where it is round-off.
-double holding_pressure(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held);
-double holding_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
+double required_pressure_above_roundoff(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held);
+double required_pressure_above_roundoff(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
 /// The derivative by λ of the pressure with which a straight obstacle holds the body straight at a tracked point: that
 /// of what acts along the body.
-double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held);
-double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
+double required_pressure_rate_above_roundoff(const SlidingSetting& setting, const SlidingState& at,
+                                             const HeldAxis& held);
+double required_pressure_rate_above_roundoff(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
 /// Whether the body needs no pressure to lie on a straight obstacle beside a place, at this λ and at others.
 bool lies_by_itself(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held);

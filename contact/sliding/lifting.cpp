@@ -284,7 +284,7 @@ std::optional<Transition> parts_leave(const SlidingSetting& setting, const Slidi
   for (std::size_t i = 0; i < at.layout.segments().size(); ++i) {
     const SlidingContactLayout::Segment& part = at.layout.segments()[i];
     if (part.span != Span::pressed || part.first_point < 0 || part.last_point < 0) continue;
-    if (holding_pressure_rate(setting, at, part.end_point()) == 0.0) continue;
+    if (required_pressure_rate_above_roundoff(setting, at, part.end_point()) == 0.0) continue;
     const auto of_part = [&](std::size_t node) { return pressed[node].segment == i; };
     if (std::count_if(all.begin(), all.end(), [&](const auto* bound) { return of_part(bound->node()); }) ==
         part.elements - 1)

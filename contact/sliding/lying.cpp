@@ -123,7 +123,7 @@ bool is_pressed_at(const SlidingSetting& setting, const SlidingState& at, Index 
   for (int i = 0; i <= places; ++i) {
     const double s = setting.body.length(strand) * i / places;
     const bool at_end = i == 0 || i == places;
-    if (straight_pressure(setting, held, s) > 0.0) continue;
+    if (required_pressure_on_straight_wall(setting, held, s) > 0.0) continue;
     if (!at_end || !pressure_vanishes_for_all_lambda(setting, held, s)) return false;
   }
   return true;
@@ -200,7 +200,7 @@ State with_flat_parts_loaded(const SlidingSetting& setting, const SlidingState& 
   bool changed = false;
   const auto load = [&](std::size_t point, Span& span, int& elements, double from, double to) {
     if (span != Span::flat) return;
-    const double grows = toward * holding_pressure_rate(setting, at, point);
+    const double grows = toward * required_pressure_rate_above_roundoff(setting, at, point);
     if (grows == 0.0) return;
     span = grows > 0.0 ? Span::pressed : Span::free;
     elements = elements_asked(setting.body, edit.strands[point], from, to, fewest_pressed(true));
@@ -268,8 +268,8 @@ HoldingMoment holding_moment(const SlidingSetting& setting, const SlidingState& 
                sign = outward(setting.obstacles[end.obstacle].surface->side(), last) * held.travel;
   const double by_change = pressure_of_end_element(part.elements).moment_by_change;
   const double at_end = s - held.s, at_next = at_end + (last ? -h : h);
-  const double pressure = (1.0 - by_change) * straight_pressure(setting, held, at_end) +
-                          by_change * straight_pressure(setting, held, at_next);
+  const double pressure = (1.0 - by_change) * required_pressure_on_straight_wall(setting, held, at_end) +
+                          by_change * required_pressure_on_straight_wall(setting, held, at_next);
   HoldingMoment moment{.value = sign * at.state.x[at.index.tip_moment(tip)] - half * pressure,
                        .row = straight_pressure_gradient(setting, at, held, at_end)};
   const Row next = straight_pressure_gradient(setting, at, held, at_next);
@@ -277,7 +277,7 @@ HoldingMoment holding_moment(const SlidingSetting& setting, const SlidingState& 
   moment.row.dlambda = -half * ((1.0 - by_change) * moment.row.dlambda + by_change * next.dlambda);
   if (part.has_point()) {  // the elements become longer or shorter with the part
     const double by_length = -2.0 * half / h * pressure,
-                 by_place = -half * by_change * straight_pressure_slope(setting, held, at_next);
+                 by_place = -half * by_change * required_pressure_slope_on_straight_wall(setting, held, at_next);
     const auto edge = static_cast<Index>(part.end_point());
     moment.row.dx[at.index.coordinate(edge)] += ((last ? -by_length : by_length) + by_place) / part.elements;
   }

@@ -63,8 +63,8 @@ struct LeftBeside {
   double by_distance = 0.0, by_element = 0.0;
 };
 
-LeftBeside left_beside(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part,
-                       const CurvePressure& on) {
+LeftBeside remaining_pressure_at_jump(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part,
+                                      const CurvePressure& on) {
   const Touch touch = on.touch(part.node + 1);
   const Obstacle& wall = *setting.obstacles[touch.obstacle].surface;
   LeftBeside least;
@@ -111,7 +111,7 @@ LeastOnCurve least_on_curve(const SlidingSetting& setting, const SlidingState& a
     if (part.node != (end == 0 ? 0 : part.nodes - 1) || three[end] >= least.value) continue;
     least = {.value = three[end], .offset = double(end - 1), .weights = Eigen::Vector3d::Unit(end)};
   }
-  if (const LeftBeside left = left_beside(setting, at, part, on); left.value < least.value)
+  if (const LeftBeside left = remaining_pressure_at_jump(setting, at, part, on); left.value < least.value)
     least = {.value = left.value, .offset = left.offset, .left = left};
   return least;
 }
@@ -163,7 +163,7 @@ AtFraction least_on_straight(const SlidingSetting& setting, const SlidingState& 
   const auto is_no_bound = [&](double r) { return pressure_vanishes_for_all_lambda(setting, held, ahead(r)); };
   if (from == 0.0 && part.segment.first_point < 0 && is_no_bound(0.0)) from = 0.5 * h;
   if (to == 1.0 && part.segment.last_point < 0 && is_no_bound(1.0)) to = 1.0 - 0.5 * h;
-  const auto pressure = [&](double r) { return straight_pressure(setting, held, ahead(r)); };
+  const auto pressure = [&](double r) { return required_pressure_on_straight_wall(setting, held, ahead(r)); };
   const auto at_fraction = [&](double r) { return AtFraction{.r = r, .pressure = pressure(r)}; };
   const AtFraction first = at_fraction(from), middle = at_fraction(0.5 * (from + to)), last = at_fraction(to);
   const AtFraction least = first.pressure <= last.pressure ? first : last;
@@ -178,7 +178,7 @@ Row gradient_on_straight(const SlidingSetting& setting, const SlidingState& at, 
   const SlidingContactLayout::Segment& ends = part.segment;
   const double r = least_on_straight(setting, at, part).r, ahead = AheadOfPoint(setting, at, part.segment)(r);
   const HeldAxis held = held_axis(setting, at, ends);
-  const double slope = straight_pressure_slope(setting, held, ahead);
+  const double slope = required_pressure_slope_on_straight_wall(setting, held, ahead);
   Row row = straight_pressure_gradient(setting, at, held, ahead);
   if (ends.first_point >= 0) row.dx[at.index.coordinate(ends.first_point)] += (1.0 - r) * slope;
   if (ends.last_point >= 0) row.dx[at.index.coordinate(ends.last_point)] += r * slope;
@@ -264,8 +264,8 @@ PressureAtEnd pressure_at_end(const SlidingSetting& setting, const SlidingState&
   if (part_is_on_straight(setting, at, part)) {
     const HeldAxis held = held_axis(setting, at, part);
     const AheadOfPoint ahead(setting, at, part);
-    at_end = straight_pressure(setting, held, ahead(double(end) / part.elements));
-    at_next = straight_pressure(setting, held, ahead(double(next) / part.elements));
+    at_end = required_pressure_on_straight_wall(setting, held, ahead(double(end) / part.elements));
+    at_next = required_pressure_on_straight_wall(setting, held, ahead(double(next) / part.elements));
   } else {
     const CurvePressure on(setting, at, segment);
     at_end = on.pressure(end);

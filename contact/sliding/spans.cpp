@@ -33,7 +33,7 @@ double shortest_sure_arch(const SlidingSetting& setting, const HeldAxis& held, d
   constexpr double roundoff = 1e-12, longest = 0.02;
   const Index strand = held.touch.strand;
   const double L = setting.body.length(strand);
-  const double slope = std::abs(straight_pressure_slope(setting, held, ahead));
+  const double slope = std::abs(required_pressure_slope_on_straight_wall(setting, held, ahead));
   const double lost = std::pow(roundoff * setting.body.bending_stiffness({strand, held.s}) * L / slope, 0.2);
   return std::clamp(lost, shortest_span_on_straight(setting.body, strand), longest * L);
 }

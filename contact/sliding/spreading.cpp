@@ -266,8 +266,8 @@ struct HalfPressed {
 // Whether the pressure that would hold the body on the wall changes its sign within a stretch about a point.
 bool pressure_changes_sign(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double length) {
   const HeldAxis held = held_axis(setting, at, point);
-  const double before = pressure_to_hold(setting, held, -0.5 * length);
-  const double behind = pressure_to_hold(setting, held, 0.5 * length);
+  const double before = required_pressure(setting, held, -0.5 * length);
+  const double behind = required_pressure(setting, held, 0.5 * length);
   return std::min(before, behind) < 0.0 && std::max(before, behind) > 0.0;
 }
 
@@ -278,7 +278,7 @@ std::optional<HalfPressed> half_pressed(const SlidingSetting& setting, const Sli
   constexpr double beyond = 0.6;
   if (!pressure_changes_sign(setting, at, point, length)) return std::nullopt;
   const HeldAxis held = held_axis(setting, at, point);
-  const auto pressure = [&](double ahead) { return pressure_to_hold(setting, held, ahead); };
+  const auto pressure = [&](double ahead) { return required_pressure(setting, held, ahead); };
   double pressed = -0.5 * length, free = 0.5 * length;
   if (pressure(pressed) < pressure(free)) std::swap(pressed, free);
   double edge = free;
@@ -371,7 +371,8 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
             spread(setting, at, points, planes, Span::flat, length, nullptr, true)};
   const auto is_all = [&](const auto& holds) { return std::all_of(held.begin(), held.end(), holds); };
   const auto lifts_off_straight = [&](const HeldAxis& axis) {
-    return holding_pressure(setting, at, axis) < 0.0 && obstacle_curvature(setting, at, axis.touch) == 0.0;
+    return required_pressure_above_roundoff(setting, at, axis) < 0.0 &&
+           obstacle_curvature(setting, at, axis.touch) == 0.0;
   };
   std::vector<Transition> transitions;
   const auto try_half_pressed = [&](double factor) {
@@ -455,7 +456,7 @@ std::optional<Span> lies_down_as(const SlidingSetting& setting, const SlidingSta
            obstacle_is_straight(setting, at, point, at.s(segment.last_point) - at.s(segment.first_point));
   };
   if (std::none_of(at.layout.segments().begin(), at.layout.segments().end(), is_behind)) return std::nullopt;
-  if (holding_pressure_rate(setting, at, point) != 0.0) return Span::pressed;
+  if (required_pressure_rate_above_roundoff(setting, at, point) != 0.0) return Span::pressed;
   const bool by_itself = lies_by_itself(setting, at, point) && lies_by_itself(setting, at, point + 1);
   return by_itself && is_straight_behind(at, point) ? std::optional(Span::flat) : std::nullopt;
 }
@@ -480,7 +481,7 @@ std::vector<HalfArch> half_arches_lying_down(const SlidingSetting& setting, cons
       const std::size_t contact = at.layout.points().size() + *end;
       const double far = (last ? setting.body.length(strand) : 0.0) - at.s(static_cast<Index>(k));
       if (is_tangent_at_plane(setting, at, setting.free_ends[*end].seen_from(of)) && !at.is_closed(contact) &&
-          obstacle_is_straight(setting, at, k, far) && holding_pressure_rate(setting, at, k) != 0.0)
+          obstacle_is_straight(setting, at, k, far) && required_pressure_rate_above_roundoff(setting, at, k) != 0.0)
         found.push_back({.point = k, .contact = contact, .last = last});
     }
   return found;
@@ -520,7 +521,8 @@ std::optional<Transition> spans_lie_down(const SlidingSetting& setting, const Sl
 
 }  // namespace
 
-std::vector<Transition> points_to_lines(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
+std::vector<Transition> zones_or_arches_from_points(const SlidingSetting& setting, const SlidingState& at,
+                                                    const Arrival& arrival) {
   if (auto zones = zones_leave_joints(setting, at, arrival); !zones.empty()) return zones;
   const Points points = points_without_curvature(setting, at, arrival);
   const Planes planes = planes_without_curvature(setting, at, arrival);

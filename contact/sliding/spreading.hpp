@@ -14,6 +14,7 @@ namespace arcwall::sliding {
 /// equilibrium with straight obstacles become lines together; of several flat ones only the sum of the lengths is
 /// determined, and what lies behind is a continuum of equilibria. Where two neighbours lose their gap because nothing
 /// bends the straight span between them any more, it comes to lie.
-std::vector<Transition> points_to_lines(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival);
+std::vector<Transition> zones_or_arches_from_points(const SlidingSetting& setting, const SlidingState& at,
+                                                    const Arrival& arrival);
 
 }  // namespace arcwall::sliding

@@ -110,7 +110,7 @@ std::vector<Tail> tails_behind(const SlidingSetting& setting, const Transition& 
   const SlidingState guess(free.guess.get());
   const std::size_t point = guess.layout.point_at_end(tip.strand, tip.last).value();
   if (lies_by_itself(setting, guess, point)) return {Tail::flat};
-  const bool lifts_off = holding_pressure(setting, guess, point) < 0.0;
+  const bool lifts_off = required_pressure_above_roundoff(setting, guess, point) < 0.0;
   return lifts_off ? std::vector{Tail::off, Tail::arch, Tail::pressed} : std::vector{Tail::pressed, Tail::off};
 }
 

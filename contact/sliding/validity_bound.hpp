@@ -105,7 +105,7 @@ const Bound* as(const ValidityBound& bound) {
 }
 
 /// All bounds of a layout: of its tracked points, its segments, its pressed nodes and the free ends. To add a kind of
-/// bound, write a class for it, with a BoundKind, and add a line here.
+/// bound, write a class for it, with a BoundKind, and add a line in validity_bounds.cpp.
 std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingBody& body,
                                                                   const SlidingContactLayout& on);
 

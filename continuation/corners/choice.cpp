@@ -20,7 +20,7 @@ Direction open_direction(const TraceTools& tools, const Metric& open_metric, con
 
 // How good it is to go on along a direction; the least is best.
 struct Rank {
-  bool unstable, continues;  // a continuation of the old active set only where nothing else leaves
+  bool unstable, continues;  // of unstable ones that which keeps the old active set is last; with `stay` it is first
   bool turns;                // λ, which drives a structure that arrives stable
   Index count;
   double backward;

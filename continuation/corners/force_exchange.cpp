@@ -17,18 +17,18 @@ std::optional<ForceExchange> exchange_forces(TraceTools& tools, const State& sta
   Matrix rates = system.unit_force(state, closing);
   if (!solver.solve_inner(rates)) return std::nullopt;
 
-  std::optional<Index> released;
+  std::optional<Index> without_force;
   double force = 0.0;  // of the new contact, in the scale of guards
   for (Index i = 0; i < static_cast<Index>(state.active_set.contacts()); ++i) {
     const Enforcement how = system.enforcement(state.active_set, i);
     if (!how.multiplier || how.two_sided || rates(*how.multiplier, 0) >= 0.0) continue;
     const Index k = *how.multiplier;
     const double vanishes_at = state.x[k] / -rates(k, 0);
-    if (released && vanishes_at >= force) continue;
-    released = i;
+    if (without_force && vanishes_at >= force) continue;
+    without_force = i;
     force = vanishes_at;
   }
-  if (!released) return std::nullopt;
+  if (!without_force) return std::nullopt;
   const Metric metric = tools.metric_on(state.active_set, lambda_scale);
   if (metric.norm({.dx = force * rates.col(0), .dlambda = 0.0}) > coincidence_tolerance) return std::nullopt;
 
@@ -36,10 +36,10 @@ std::optional<ForceExchange> exchange_forces(TraceTools& tools, const State& sta
   changed.x += force * rates.col(0);
   ActiveSet with_new = state.active_set;
   with_new[j] = 1;
-  ForceExchange exchange{.state = system.with_active_set(changed, with_new), .released = *released};
+  ForceExchange exchange{.state = system.with_active_set(changed, with_new), .without_force = *without_force};
   if (const Enforcement how = system.enforcement(with_new, closing); how.multiplier)
     exchange.state.x[*how.multiplier] = force * how.force_scale;
-  if (const auto k = system.enforcement(with_new, *released).multiplier) exchange.state.x[*k] = 0.0;
+  if (const auto k = system.enforcement(with_new, *without_force).multiplier) exchange.state.x[*k] = 0.0;
   return exchange;
 }
 

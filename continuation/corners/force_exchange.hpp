@@ -8,8 +8,8 @@ namespace arcwall {
 
 /// What is behind an exchange of forces.
 struct ForceExchange {
-  State state{};       ///< at the same λ and shape, with the new contact closed
-  Index released = 0;  ///< the contact whose force has vanished; still closed
+  State state{};            ///< at the same λ and shape, with the new contact closed
+  Index without_force = 0;  ///< the contact whose force has vanished; still closed
 };
 
 /// Where a contact closes at a place that the closed contacts hold already, the structure cannot follow: at constant λ

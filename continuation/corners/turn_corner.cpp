@@ -97,7 +97,7 @@ std::optional<std::pair<Corner, Index>> behind_exchange(TraceTools& tools, const
   behind.at.guards = tools.system.guards(exchange->state);
   behind.at.guard_rates = Vector::Zero(behind.at.guards.size());
   ++behind.without_progress;
-  return std::pair(std::move(behind), exchange->released);
+  return std::pair(std::move(behind), exchange->without_force);
 }
 
 // The corner as a point of the active set along a direction, with the count along it.

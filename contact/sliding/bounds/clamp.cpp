@@ -30,7 +30,7 @@ BoundPlace ClampBound::place(const SlidingSetting& setting, const SlidingState& 
 
 std::vector<Transition> ClampBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                 const Arrival& arrival) const {
-  if (setting.body.is_on_plane(strand_, last_)) return points_to_lines(setting, at, arrival);
+  if (setting.body.is_on_plane(strand_, last_)) return zones_or_arches_from_points(setting, at, arrival);
   const auto clamp = touched_clamp(setting, at, strand_, last_);
   const auto touching = end_nearest_to_lying_down(setting, at, end());
   const bool is_touched = clamp && touching && setting.free_ends[*touching].obstacle == clamp->obstacle;

@@ -78,7 +78,7 @@ Row CurvatureBound::gradient(const SlidingSetting& setting, const SlidingState& 
 
 std::vector<Transition> CurvatureBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                     const Arrival& arrival) const {
-  if (at.is_closed(point_)) return points_to_lines(setting, at, arrival);
+  if (at.is_closed(point_)) return zones_or_arches_from_points(setting, at, arrival);
   return {without_point(setting, at, arrival.forward, point_)};
 }
 

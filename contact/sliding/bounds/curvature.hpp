@@ -4,8 +4,8 @@
 
 namespace arcwall::sliding {
 
-/// The curvature gap (8.5) of a tracked point beside which the body does not lie on the wall. Closed: behind the bound
-/// the point contact becomes a line. Open: the least gap that the point follows becomes shallow, and before it vanishes
+/// The curvature gap (8.5) of a tracked point beside which the body does not lie on the wall. Closed: beyond the bound
+/// a zone, an arch or both begin. Open: the least gap that the point follows becomes shallow, and before it vanishes
 /// the point must be given up, as nothing would say where it is; so it vanishes at once where an arc of the wall goes
 /// over into a line, from which the body turns away.
 class CurvatureBound final : public BoundOfPoint<BoundKind::curvature> {

@@ -44,7 +44,7 @@ std::string why_it_pulls(const SlidingSetting& setting, const SlidingState& at, 
 bool must_press(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   return at.is_closed(point) && at.layout.lies_pressed(point) &&
          (at.layout.points()[point].behind == Span::free || at.layout.span_before(point) == Span::free) &&
-         obstacle_is_straight(setting, at, point) && holding_pressure(setting, at, point) > 0.0;
+         obstacle_is_straight(setting, at, point) && required_pressure_above_roundoff(setting, at, point) > 0.0;
 }
 
 double EdgePressesBound::value(const SlidingSetting& setting, const SlidingState& at) const {
