@@ -15,7 +15,7 @@ namespace {
 using Linear = Eigen::Vector2d;
 using LinearRates = Eigen::MatrixX2d;
 
-constexpr double roundoff = 1e-12;  // of z: what is let off by less is not
+constexpr double roundoff = 1e-12;  // of z: conditions that are relaxed by less are not
 
 // What must not be negative: of one that is open its gap; of others their force if they touch; of slips their rate; of
 // sticks what is left up to slip in a sense.
@@ -33,18 +33,18 @@ Condition::Of excluded_by(Condition::Of of) {
 
 ContactMode slip_in(double sense) { return sense > 0.0 ? ContactMode::slips_forward : ContactMode::slips_backward; }
 
-// Contacts with what they are let off by: the law holds for g + δg z, p + δp z, y + δy z and T + δT z.
-class LetOffContacts {
+// Contacts whose conditions are relaxed: the law holds for g + δg z, p + δp z, y + δy z and T + δT z.
+class RelaxedContacts {
  public:
-  explicit LetOffContacts(const ContactRates& rates)
+  explicit RelaxedContacts(const ContactRates& rates)
       : rates_(rates), k_(static_cast<Index>(rates.contacts.size())), motion_(Vector::Zero(2 * k_)), force_(motion_) {
     for (const ContactAtBound& contact : rates.contacts) modes_.push_back(contact.mode);
   }
 
   const std::vector<ContactMode>& modes() const { return modes_; }
 
-  // Lets a condition off by so much for z = 1.
-  void let_off(const Condition& condition, double by) {
+  // Relaxes a condition by so much for z = 1.
+  void relax(const Condition& condition, double by) {
     const auto i = static_cast<Index>(condition.contact);
     const ContactAtBound& contact = rates_.contacts[condition.contact];
     if (condition.of == Condition::Of::gap) motion_[i] = by;
@@ -146,7 +146,7 @@ class LetOffContacts {
   Index k_;
   Vector motion_, force_;  // δg and δy, δp and δT
   std::vector<ContactMode> modes_;
-  LinearRates moved_, forced_;  // g and y, p and T, with what they are let off by
+  LinearRates moved_, forced_;  // g and y, p and T, relaxed
 };
 
 // The condition that is last to hold as z grows where λ̇ = 1, and that z; empty where one never holds.
@@ -161,9 +161,9 @@ std::optional<std::pair<Condition, double>> last_to_hold(const std::vector<Condi
   return last;
 }
 
-// Lets all conditions off, no two by the same: contacts that move as one would come to zero together. Motions are let
-// off by what forces may make, at least.
-void let_off_unlike(const ContactRates& rates, const std::vector<Condition>& conditions, LetOffContacts& contacts) {
+// Relaxes all conditions, no two by the same: those of contacts that move as one would come to zero together. Motions
+// are relaxed by what forces may make, at least.
+void relax_all(const ContactRates& rates, const std::vector<Condition>& conditions, RelaxedContacts& contacts) {
   const auto is_motion = [](const Condition& condition) {
     return condition.of == Condition::Of::gap || condition.of == Condition::Of::slip;
   };
@@ -175,55 +175,67 @@ void let_off_unlike(const ContactRates& rates, const std::vector<Condition>& con
   most_motion = std::max(most_motion, most_force / rates.A.cwiseAbs().maxCoeff());
   double factor = 1.0;
   for (const Condition& condition : conditions) {
-    contacts.let_off(condition, factor * (is_motion(condition) ? most_motion : most_force));
+    contacts.relax(condition, factor * (is_motion(condition) ? most_motion : most_force));
     factor += 1.0 / double(conditions.size());
   }
+}
+
+// Whether a condition is the one that a change has put in the place of another: of each two that exclude each other one
+// is zero.
+bool replaces(const Condition& condition, const Condition& other) {
+  const bool is_of_touch = other.of == Condition::Of::gap || other.of == Condition::Of::force;
+  return condition.contact == other.contact && condition.of == excluded_by(other.of) &&
+         (is_of_touch || condition.sense == other.sense);
+}
+
+// From the ray at which a condition came to zero to that at which the next one does, or z: then there is no next one.
+struct Turn {
+  Linear ray;
+  std::optional<Condition> next{};
+};
+
+Turn turned(const Linear& ray, const Condition& at, const std::vector<Condition>& conditions) {
+  Linear across(-ray[1], ray[0]);
+  for (const Condition& condition : conditions)
+    if (replaces(condition, at) && condition.value.dot(across) < 0.0) across = -across;
+  const auto angle_to_zero = [&](const Linear& value) {
+    return std::atan2(std::max(0.0, value.dot(ray)), -value.dot(across));
+  };
+  Turn turn{.ray = ray};
+  double least = angle_to_zero(Linear::UnitY());
+  for (const Condition& condition : conditions) {
+    if (replaces(condition, at)) continue;
+    if (const double angle = angle_to_zero(condition.value); angle < least) {
+      least = angle;
+      turn.next = condition;
+    }
+  }
+  turn.ray = (std::cos(least) * ray + std::sin(least) * across).normalized();
+  if (turn.ray[1] <= roundoff) turn.next.reset();
+  return turn;
 }
 
 }  // namespace
 
 std::optional<std::vector<ContactMode>> pivoted_modes(const ContactRates& rates) {
-  LetOffContacts contacts(rates);
-  std::vector<Condition> conditions = contacts.conditions();
-  if (conditions.empty()) return std::nullopt;
+  RelaxedContacts contacts(rates);
+  const std::vector<Condition> first = contacts.conditions();
+  if (first.empty()) return std::nullopt;
   const auto is_violated = [](const Condition& condition) { return condition.value[0] < 0.0; };
-  if (std::none_of(conditions.begin(), conditions.end(), is_violated)) return contacts.modes();
-  let_off_unlike(rates, conditions, contacts);
+  if (std::none_of(first.begin(), first.end(), is_violated)) return contacts.modes();
+  relax_all(rates, first, contacts);
   const auto begin = last_to_hold(contacts.conditions());
   if (!begin) return std::nullopt;
-  Condition at = begin->first;
-  Linear ray = Linear(1.0, begin->second).normalized();
+  Turn turn{.ray = Linear(1.0, begin->second).normalized(), .next = begin->first};
   std::set<std::vector<ContactMode>> seen{contacts.modes()};
-  for (;;) {
-    contacts.change(at, ray);
+  while (turn.next) {
+    contacts.change(*turn.next, turn.ray);
     if (!seen.insert(contacts.modes()).second) return std::nullopt;
-    conditions = contacts.conditions();
-    const auto is_entering = [&](const Condition& condition) {
-      return condition.contact == at.contact && condition.of == excluded_by(at.of) &&
-             (condition.of == Condition::Of::force || condition.of == Condition::Of::gap ||
-              condition.sense == at.sense);
-    };
-    // Beyond the ray at which the contact changes what enters is positive.
-    Linear across(-ray[1], ray[0]);
-    for (const Condition& condition : conditions)
-      if (is_entering(condition) && condition.value.dot(across) < 0.0) across = -across;
-    const auto turn_to_zero = [&](const Linear& value) {
-      return std::atan2(std::max(0.0, value.dot(ray)), -value.dot(across));
-    };
-    double least = turn_to_zero(Linear::UnitY());
-    std::optional<Condition> next;
-    for (const Condition& condition : conditions) {
-      if (is_entering(condition)) continue;
-      if (const double turn = turn_to_zero(condition.value); turn < least) {
-        least = turn;
-        next = condition;
-      }
-    }
+    const std::vector<Condition> conditions = contacts.conditions();
     if (conditions.empty()) return std::nullopt;
-    ray = (std::cos(least) * ray + std::sin(least) * across).normalized();
-    if (!next || ray[1] <= roundoff) return contacts.modes();
-    at = *next;
+    turn = turned(turn.ray, *turn.next, conditions);
   }
+  return contacts.modes();
 }
 
 }  // namespace arcwall

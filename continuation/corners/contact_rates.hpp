@@ -27,10 +27,10 @@ struct ContactRates {
   Vector b{};
 };
 
-/// What contacts do so that their rates fulfil 0 ≤ ġ ⊥ ṗ ≥ 0 where they touch, and the law of friction, with λ̇ of
-/// either sign. Found by complementary pivoting (Lemke 1965): from what they do and λ̇ = 1, which violates the law, they
-/// are let off by z; the piecewise linear path of solutions is followed to z = 0, one change of one contact after
-/// another. λ̇ may turn on it. Empty where it ends at equations that are singular, or comes back.
+/// Returns what contacts do so that their rates fulfil 0 ≤ ġ ⊥ ṗ ≥ 0 where they touch, and the law of friction, with λ̇
+/// of either sign. Found by complementary pivoting (Lemke 1965): what they do at first violates the law for λ̇ = 1, and
+/// is relaxed by z; the piecewise linear path of solutions is followed to z = 0, one change of one contact after
+/// another. Empty where it meets equations that are singular, or comes back.
 std::optional<std::vector<ContactMode>> pivoted_modes(const ContactRates& rates);
 
 }  // namespace arcwall
