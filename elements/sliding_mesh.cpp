@@ -384,21 +384,32 @@ void SlidingStructureMesh::linearize(const MeshState& now, Linearization& out) c
       now.lambda, [this](Index dof) { return unknown(dof); },
       [&](Index dof) { return structure_.value(*this, now, dof); }, out);
   add_fours(now, out.F, &out);
-  for (const auto& [r, e] : others_) add(r, e, respond_unloaded(r, e, now, m > 0), out);
+  for (const auto& [r, e] : others_) add(r, e, respond_unloaded(r, e, now, m > 0), nullptr, out);
   for (const Straight& straight : straights_) add_straight(straight, now, out.F, &out);
   for (const InnerLoad& load : inner_loads_) {
     const Index e = element_of(load, now);
-    add(load.strand, e, respond(load, e, now, m > 0), out);
+    add(load.strand, e, respond(load, e, now, m > 0), nullptr, out);
   }
 }
 
-void SlidingStructureMesh::add(Index strand, Index position, const Response& response, Linearization& out) const {
+void SlidingStructureMesh::add(Index strand, Index position, const Response& response, const AxialResponse* axial,
+                               Linearization& out) const {
   const Index block = mesh_of(strand).first_element + position;
   const auto to = assembly_.unknowns(block);
   add_forces(strand, position, response, out.F);
   for (std::size_t i = 0; i < 6; ++i)
     if (to[i] != held) out.F_lambda[to[i]] += response.force_lambda[static_cast<Index>(i)];
-  assembly_.add(block, response.stiffness.data(), 1.0, out.K.valuePtr());
+  if (straight_at(strand, position) == nullptr) {
+    assembly_.add(block, {response.stiffness.data(), 36}, 1.0, out.K.valuePtr());
+  } else {
+    Eigen::Matrix<double, 7, 7> K = Eigen::Matrix<double, 7, 7>::Zero();
+    K.topLeftCorner<6, 6>() = response.stiffness;
+    if (axial != nullptr) {
+      K.topRightCorner<6, 1>() = axial->by_ends;
+      K.bottomRows<1>() << axial->by_ends.transpose(), axial->by_itself;
+    }
+    assembly_.add(block, {K.data(), 49}, 1.0, out.K.valuePtr());
+  }
   for_each_rate(strand, position, response, [&](Index k, const Six& rate) {
     for (std::size_t i = 0; i < 6; ++i)
       if (to[i] != held) out.B(to[i], k) += rate[static_cast<Index>(i)];

@@ -180,7 +180,9 @@ class SlidingStructureMesh final : public SlidingMesh {
 
   // Adds what an element answers.
   void add_forces(Index strand, Index position, const Response& response, Eigen::Ref<Vector> F) const;
-  void add(Index strand, Index position, const Response& response, Linearization& out) const;
+  // `axial` is null where the axial force is not asked, or the element has none of its own.
+  void add(Index strand, Index position, const Response& response, const AxialResponse* axial,
+           Linearization& out) const;
 
   // Up to four elements of a segment that are evaluated side by side.
   struct Four {

@@ -84,19 +84,8 @@ void SlidingStructureMesh::add_straight(const Straight& straight, const MeshStat
   const Response response = respond_straight(straight, now, &axial);
   F[force] += axial.value;
   if (out == nullptr) return add_forces(strand, position, response, F);
-  const Index block = mesh_of(strand).first_element + position;
-  const auto to = assembly_.unknowns(block);
-  Eigen::Matrix<double, 7, 7> K;
-  K << response.stiffness, axial.by_ends, axial.by_ends.transpose(), axial.by_itself;
-  assembly_.add(block, K.data(), 1.0, out->K.valuePtr());
+  add(strand, position, response, &axial, *out);
   out->F_lambda[force] += axial.by_lambda;
-  add_forces(strand, position, response, F);
-  for (std::size_t i = 0; i < 6; ++i)
-    if (to[i] != held) out->F_lambda[to[i]] += response.force_lambda[static_cast<Index>(i)];
-  for_each_rate(strand, position, response, [&](Index k, const Six& rate) {
-    for (std::size_t i = 0; i < 6; ++i)
-      if (to[i] != held) out->B(to[i], k) += rate[static_cast<Index>(i)];
-  });
   for (std::size_t end = 0; end < 2; ++end) {
     const Coordinate& place = mesh_of(strand).nodes[static_cast<std::size_t>(position) + end];
     for (std::size_t j = 0; j < 2; ++j)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -115,8 +116,10 @@ class BlockAssembly {
         if (*slot >= 0) values[*slot] += factor * K(i + j * at.rows);
   }
 
-  void add(Index block, const double* K, double factor, double* values) const {
-    add_entries(block, factor, values, [K](Index entry) { return K[entry]; });
+  /// `K` must have the n² entries of the block, or more.
+  void add(Index block, std::span<const double> K, double factor, double* values) const {
+    assert(K.size() >= unknowns(block).size() * unknowns(block).size());
+    add_entries(block, factor, values, [K](Index entry) { return K[static_cast<std::size_t>(entry)]; });
   }
 
   /// The lower triangles of several n × n blocks, `K(entry, which)`, with factor 1: without a question where they are

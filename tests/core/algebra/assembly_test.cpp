@@ -32,7 +32,7 @@ TEST(BlockAssembly, SumsBlocksLikeADenseMatrix) {
         if (row >= 0 && column >= 0) expected(row, column) += factor * block(i, j);
       }
     block.triangularView<Eigen::StrictlyUpper>().setConstant(infinity);  // not read
-    assembly.add(static_cast<Index>(b), block.data(), factor, K.valuePtr());
+    assembly.add(static_cast<Index>(b), {block.data(), static_cast<std::size_t>(block.size())}, factor, K.valuePtr());
   }
   EXPECT_LE((test::full(K) - expected).cwiseAbs().maxCoeff(), 1e-15);
 }
