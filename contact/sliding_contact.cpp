@@ -419,6 +419,15 @@ StepVerdict SlidingContact::check(const CheckedStep& step) const {
       return verdict;
     }
   }
+  // An open point moves the mesh: where that moves its least gap by more than the point follows, its place turns back,
+  // and takes the path of a structure that does not turn along. So λ turns without open points, or not at all. The one
+  // that touches there is needed: a shorter step turns before, or is none.
+  if (end.turns && end.from != nullptr) {
+    const std::optional<Index> touching = end.guard && *end.guard < to.index.points ? end.guard : std::nullopt;
+    restart_with(sliding::without_open_points(*setting_, from, *end.from, touching));
+    if (verdict.restarts.empty() && touching && !to.is_closed(static_cast<std::size_t>(*touching)))
+      return {.fault = StepVerdict::Fault::penetration, .place = watched_place(step.to, *touching)};
+  }
   if (end.guard && end.from != nullptr)
     restart_with(sliding::with_mesh_for_touch(*setting_, from, *end.from, to, *end.guard));
   return verdict;

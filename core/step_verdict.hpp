@@ -16,6 +16,7 @@ struct CheckedStep {
     double gap_seen = -penetration;   ///< gaps between contacts below it need guards [scale of guards]
     std::optional<Index> guard{};     ///< that vanishes there
     const Direction* from = nullptr;  ///< direction of the path at the step's start; null: no restarts are wanted
+    bool turns = false;               ///< λ runs the other way there than at the start
   };
 
   const State& from;

@@ -95,6 +95,18 @@ Transition without_point(const SlidingSetting& setting, const SlidingState& at, 
   });
 }
 
+std::optional<Transition> without_open_points(const SlidingSetting& setting, const SlidingState& at,
+                                              const Direction& forward, std::optional<Index> touching) {
+  std::vector<std::size_t> open;
+  for (std::size_t k = at.layout.points().size(); k-- > 0;)
+    if (!at.is_closed(k) && !at.layout.points()[k].is_pinched() && touching != static_cast<Index>(k)) open.push_back(k);
+  if (open.empty()) return std::nullopt;
+  return remeshed(setting, at, forward, [&open](LayoutEdit& edit, const SlidingState&) {
+    for (const std::size_t point : open) edit.erase(point, edit.elements_without(point));
+    divide_evenly(edit);
+  });
+}
+
 Transition up_to(double value, std::shared_ptr<const Observable> quantity, Transition::Change change,
                  Deferred<State> guess) {
   Transition transition{};

@@ -38,6 +38,10 @@ Transition with_elements(const SlidingSetting& setting, const SlidingState& at, 
 Transition without_point(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                          std::size_t point);
 
+/// Without the open points, which bear nothing, but for the one that touches; empty if there are no others.
+std::optional<Transition> without_open_points(const SlidingSetting& setting, const SlidingState& at,
+                                              const Direction& forward, std::optional<Index> touching);
+
 /// A transition whose first point is where the quantity has the value.
 Transition up_to(double value, std::shared_ptr<const Observable> quantity, Transition::Change change,
                  Deferred<State> guess);

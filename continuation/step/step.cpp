@@ -184,6 +184,7 @@ bool is_stopped_by_kink(TraceTools& tools, const StepOrigin& origin, const Corre
 // What vanishes with the guard that was landed on belongs to the change.
 CheckedStep::LocatedEnd located_end(const StepOrigin& origin, const StepEnd& end) {
   CheckedStep::LocatedEnd located{.penetration = penetration_tolerance, .from = &origin.point().tangent};
+  located.turns = origin.point().tangent.dlambda * end.point.tangent.dlambda < 0.0;
   if (end.landing) located.gap_seen = near_change;
   if (end.landing) located.guard = end.landing->guard;
   return located;

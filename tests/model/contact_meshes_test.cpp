@@ -293,15 +293,23 @@ outline = { type = "circle", centre = [24.24, -5.353], radius = 8.0 }
   }
 }
 
-// A steep arch comes near a small peg, off which a point follows the least gap until that is none any more. The point
-// is given up before, or the path would go back with it. With contact at 160 nodes it touches at 0.1172165.
-TEST(ContactMeshes, APointOffASmallPegIsGivenUpInTimeSlow) {
-  const Session run = test::traced(
+namespace {
+
+Session steep_arch_above_a_peg(int elements) {
+  return test::traced(
       title("A tapered arch above a peg") + material("m", 1e4) + rectangle("s", 0.1, 0.06, "height_to = 0.04") +
-      points({{"a", -1.0, 0.0}, {"b", 1.0, 0.0}}) + member("m", "a", "b", "elastica", 80, "via = [0.0, 0.4]") +
+      points({{"a", -1.0, 0.0}, {"b", 1.0, 0.0}}) + member("m", "a", "b", "elastica", elements, "via = [0.0, 0.4]") +
       supports({{"a", "x z rotation"}, {"b", "x z"}}) + distributed("m", 0.3, -2.0) +
       wall("peg", R"(contact_surface = "axis"; outline = { type = "circle", centre = [0.1, 0.04], radius = 0.3 })") +
       path(R"(step = 0.02; branches = "primary"; jumps = false; stop = { lambda = [-1.0, 1.0] })"));
+}
+
+}  // namespace
+
+// A steep arch comes near a small peg, off which a point follows the least gap until that is none any more. The point
+// is given up before, or the path would go back with it. With contact at 160 nodes it touches at 0.1172165.
+TEST(ContactMeshes, APointOffASmallPegIsGivenUpInTimeSlow) {
+  const Session run = steep_arch_above_a_peg(80);
   EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop);
   EXPECT_EQ(run.points().back().lambda, 1.0);
   std::vector<double> touches;
@@ -309,6 +317,22 @@ TEST(ContactMeshes, APointOffASmallPegIsGivenUpInTimeSlow) {
     if (event.kind == EventKind::contact_closes) touches.push_back(event.lambda);
   ASSERT_GE(touches.size(), 2U);
   EXPECT_NEAR(touches[1], 0.1172165, 1e-6);
+}
+
+// On few elements an open point moves the mesh so much that its place turns back before any bound of its own. The path
+// went back with it at 0.134 or 0.131, to its start or to λ = −1. With contact at 320 nodes it snaps off the peg at
+// last and turns at 0.06527996.
+TEST(ContactMeshes, AnOpenPointTurnsNoPath) {
+  for (const int elements : {20, 24, 28, 32}) {
+    SCOPED_TRACE(elements);
+    const Session run = steep_arch_above_a_peg(elements);
+    EXPECT_EQ(run.points().back().lambda, 1.0);
+    std::vector<double> turns;
+    for (const RecordEvent& event : run.events())
+      if (event.kind == EventKind::limit_point) turns.push_back(event.lambda);
+    ASSERT_EQ(turns.size(), 6U);
+    EXPECT_NEAR(turns.back(), 0.06527996, 1e-5);
+  }
 }
 
 }  // namespace arcwall::contact_meshes_test
