@@ -20,8 +20,8 @@ void require_curve(const deck::Deck& deck) {
   const auto add = [&](const char* key, std::string message, std::string cure) {
     problems.add(curve.position, key, std::move(message), std::move(cure));
   };
-  if (!deck.stages.empty())
-    add("curve", "events of decks with stages are not followed", "leave out [curve], or the stages");
+  if (!deck.stages.empty() || !deck.path.visit.empty())
+    add("curve", "events of decks with stages or visit are not followed", "leave out [curve], or these");
   if (deck.path.method == deck::PathMethod::incremental)
     add("curve", "method \"incremental\" has no events that could be followed", "use method \"spherical\"");
   if (deck.path.events != EventSearch::locate)

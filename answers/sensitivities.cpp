@@ -108,7 +108,8 @@ void Sensitivities::Beside::build(const deck::Deck& deck, const deck::Frame& fra
       return;
     }
     for (std::size_t stage = 0; stage < ended_stages.size(); ++stage) {
-      const auto end = end_of_stage(deck, model->whole_deck(), stage, ended_stages[stage].lambda);
+      const auto end =
+          end_of_stage(with_visits_as_stages(deck), model->whole_deck(), stage, ended_stages[stage].lambda);
       if (!end) {
         problem = "an earlier load step did not end at a bound of lambda, and the change of its end is not followed";
         return;
@@ -130,8 +131,8 @@ void Sensitivities::Beside::build(const deck::Deck& deck, const deck::Frame& fra
 
 Sensitivities::Sensitivities(const Model& model, std::vector<StageEnd> ended_stages)
     : model_(model), ended_stages_(std::move(ended_stages)) {
-  for (const std::string& key : model.whole_deck().path.sensitivity)
-    numbers_.push_back(std::get<deck::DeckNumber>(deck::number_of(model.whole_deck(), key)));
+  for (const std::string& key : model.given_deck().path.sensitivity)
+    numbers_.push_back(std::get<deck::DeckNumber>(deck::number_of(model.given_deck(), key)));
   for (std::size_t i = 0; i < numbers_.size(); ++i) beside_.emplace_back(std::size(steps));
 }
 
@@ -144,7 +145,7 @@ const Sensitivities::Beside& Sensitivities::beside(std::size_t number, std::size
   if (!kept) {
     const deck::DeckNumber& varied = numbers_[number];
     kept = std::make_unique<Beside>();
-    kept->build(without_answers(model_.whole_deck()), model_.frame(), varied,
+    kept->build(without_answers(model_.given_deck()), model_.frame(), varied,
                 steps[step] * natural_step(varied, model_), ended_stages_);
   }
   return kept->problem.empty() || shortest ? *kept : beside(number, step + 1);

@@ -77,6 +77,7 @@ std::string start_outside_bounds(const deck::Path& path) {
   const auto bounds = std::find_if(path.stop.bounds.begin(), path.stop.bounds.end(),
                                    [](const deck::StopBounds& one) { return one.name == "lambda"; });
   if (bounds == path.stop.bounds.end()) return {};
+  if (std::isinf(bounds->low) || std::isinf(bounds->high)) return {};  // a value of `visit`, to which λ goes
   const std::string between = "stop.lambda = [" + round_trip(bounds->low) + ", " + round_trip(bounds->high) + "]";
   if (bounds->low > 0.0 || bounds->high < 0.0)
     return "λ begins at 0, outside of " + between + ": the path ends where it comes to either bound";

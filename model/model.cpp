@@ -76,7 +76,11 @@ void check_search(const Model& model, DeckProblems& problems) {
 
 // The models of later stages are built once to see whether they can be.
 Model::Model(deck::Deck deck, const std::optional<deck::Frame>& frame)
-    : Model(std::make_shared<const deck::Deck>(deck), frame ? *frame : deck::frame_of(deck), 0, std::nullopt) {
+    : Model(std::make_shared<const deck::Deck>(deck), frame ? *frame : deck::frame_of(deck)) {}
+
+Model::Model(std::shared_ptr<const deck::Deck> given, const deck::Frame& frame)
+    : Model(std::make_shared<const deck::Deck>(with_visits_as_stages(*given)), frame, 0, std::nullopt) {
+  given_deck_ = std::move(given);
   for (std::size_t stage = 1; stage < whole_deck_->stages.size(); ++stage)
     for (const std::string& warning : Model(whole_deck_, this->frame(), static_cast<Index>(stage), progress_).warnings_)
       if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
@@ -99,6 +103,7 @@ bool Model::begin_stage(StageEnd end) {
   auto progress = progress_after(*whole_deck_, ended, end, last.progress_);
   later_.push_back(
       std::unique_ptr<Model>(new Model(whole_deck_, frame(), static_cast<Index>(ended) + 1, std::move(progress))));
+  later_.back()->given_deck_ = given_deck_;
   ended_stages_.push_back(std::move(end));
   return true;
 }
@@ -451,7 +456,7 @@ State Model::begun_from(const State& state) const {
 
 State Model::taken_over(const State& last, const Model& before) const {
   State state = grips_of(*whole_deck_, static_cast<std::size_t>(stage_)).empty() ? last : gripped(last, before);
-  state.lambda = 0.0;
+  if (!whole_deck_->stages[static_cast<std::size_t>(stage_)].goes_on) state.lambda = 0.0;
   return begun_from(state);
 }
 

@@ -49,8 +49,11 @@ class Model {
   /// Returns the total potential energy in the user's unit [force·length].
   double energy(const State& state) const { return frame().factor() * system().energy(state); }
 
-  /// Returns the given deck with all stages, in the user's coordinates.
+  /// Returns the given deck with all stages, of which each value of `visit` is one, in the user's coordinates.
   const deck::Deck& whole_deck() const { return *whole_deck_; }
+
+  /// Returns the deck as it was given.
+  const deck::Deck& given_deck() const { return *given_deck_; }
 
   /// Returns how this model's stage ends in a state.
   StageEnd end_in(const State& last) const;
@@ -143,6 +146,7 @@ class Model {
  private:
   State begun_from(const State& state) const;
   State gripped(const State& state, const Model& before) const;
+  Model(std::shared_ptr<const deck::Deck> given, const deck::Frame& frame);
   // `progress`: of what λ drives, before the stage; empty where nothing has gone before it.
   Model(std::shared_ptr<const deck::Deck> whole, const deck::Frame& frame, Index stage,
         std::optional<std::vector<DrivenThing>> progress);
@@ -160,7 +164,7 @@ class Model {
   TraceOptions options_up_to(const Assembly& of, double lambda) const;
   State begun_at_rest(const Assembly& of, double first) const;
 
-  std::shared_ptr<const deck::Deck> whole_deck_;
+  std::shared_ptr<const deck::Deck> given_deck_, whole_deck_;
   Index stage_ = 0;
   std::vector<DrivenThing> progress_;  // before this stage
   std::vector<std::unique_ptr<Model>> later_;

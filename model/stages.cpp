@@ -140,8 +140,9 @@ bool is_driven_apart(const deck::Deck& deck, const std::string& member) {
 
 std::vector<DrivenThing> progress_after(const deck::Deck& deck, std::size_t stage, const StageEnd& end,
                                         std::vector<DrivenThing> progress) {
+  const bool goes_on = stage + 1 < deck.stages.size() && deck.stages[stage + 1].goes_on;
   for (DrivenThing& one : progress)
-    if (drives(deck.stages[stage], one.name)) one.gone += end.lambda;
+    if (!goes_on && drives(deck.stages[stage], one.name)) one.gone += end.lambda;
   const std::vector<std::size_t> grips = grips_of(deck, stage + 1);
   for (std::size_t i = 0; i < grips.size(); ++i)
     for (DrivenThing& one : progress)

@@ -94,7 +94,7 @@ void write_files(const OutputFolder& folder, const Session& run, const CallOptio
   files.write("branches.json", to_text(branch_map_json(record, branch_map_of(run.model(), record)), JsonLayout::lines));
   if (pictures) files.write("report.html", ReportPage(record, report_content(run.model(), record, drawn)).pieces());
   if (description.ledger == StepLedger::kept) files.write("steps.jsonl", record.steps);
-  files.write("deck.toml", deck::to_toml(run.model().whole_deck()));
+  files.write("deck.toml", deck::to_toml(run.model().given_deck()));
   const auto result = result_json(run.model(), description, record, seconds, static_cast<int>(status));
   files.write("result.json", to_text(result, JsonLayout::lines));
   files.put_in_place();

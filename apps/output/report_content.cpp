@@ -92,7 +92,7 @@ ReportContent report_content(const Model& model, const Record& record, const Dra
                         .loads = driven_by_lambda(model.whole_deck()),
                         .force = first_force(model),
                         .turning_known = turning_known(model),
-                        .deck_text = deck::to_toml(model.whole_deck()),
+                        .deck_text = deck::to_toml(model.given_deck()),
                         .shapes = draw(drawn, setting_of(model)),
                         .branch_map = branch_map_section(record, branch_map_of(model, record)),
                         .key_numbers = key_numbers_of(model)};

@@ -127,7 +127,7 @@ void check_copies(const Model& model, const Record& record, const RunDescription
   const int status = static_cast<int>(exit_status(record));
   check_result_json(files.result_json, result_json(model, run, record, {}, status), findings);
   findings.at("deck.toml", 0, 0);
-  findings.require("deck.toml equals the deck", files.deck_toml == deck::to_toml(model.whole_deck()),
+  findings.require("deck.toml equals the deck", files.deck_toml == deck::to_toml(model.given_deck()),
                    "it is not the deck of the checkpoint with its defaults");
 }
 

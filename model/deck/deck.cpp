@@ -266,6 +266,41 @@ bool drives(const Stage& stage, const std::string& thing) {
   return std::find(stage.drives.begin(), stage.drives.end(), thing) != stage.drives.end();
 }
 
+namespace {
+
+void add_visits(const Stage& stage, double step, const std::vector<double>& visit, std::vector<Stage>& to) {
+  double from = 0.0;
+  for (std::size_t i = 0; i < visit.size(); ++i) {
+    Stage leg = stage;
+    leg.name += "-" + std::to_string(i + 1);
+    leg.visit.clear();
+    leg.goes_on = i > 0;
+    const double there = std::exchange(from, visit[i]);
+    leg.step = std::copysign(step, visit[i] - there);
+    StopBounds bounds{.name = "lambda", .position = stage.position, .low = -infinity, .high = infinity};
+    (visit[i] < there ? bounds.low : bounds.high) = visit[i];
+    leg.stop = Stop{.bounds = {bounds}};
+    to.push_back(std::move(leg));
+  }
+}
+
+}  // namespace
+
+Deck with_visits_as_stages(Deck deck) {
+  std::vector<Stage> stages;
+  if (deck.stages.empty() && !deck.path.visit.empty())
+    add_visits({.name = "visit", .position = deck.path.position, .drives = driven_things(deck)}, deck.path.step,
+               deck.path.visit, stages);
+  for (const Stage& stage : deck.stages)
+    if (stage.visit.empty())
+      stages.push_back(stage);
+    else
+      add_visits(stage, stage.step.value_or(deck.path.step), stage.visit, stages);
+  deck.path.visit.clear();
+  deck.stages = std::move(stages);
+  return deck;
+}
+
 std::optional<std::size_t> gripping_stage(const Deck& deck, std::size_t prescribed) {
   if (deck.prescribed[prescribed].from == MovedFrom::rest) return std::nullopt;
   const std::string name = driven_thing("prescribed", prescribed);

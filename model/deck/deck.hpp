@@ -499,6 +499,7 @@ struct Path {
   int search_guesses = 50;                 ///< at each of them
   int search_seed = 1;
   Stop stop{};
+  std::vector<double> visit{};  ///< values of λ to which it goes one after the other; of a deck without stages
 
   bool operator==(const Path&) const = default;
 };
@@ -519,7 +520,8 @@ struct EventToFollow {
   bool operator==(const EventToFollow&) const = default;
 };
 
-/// A part of the run in which λ drives some things, from where the stage before has left all. λ begins at 0 again.
+/// A part of the run in which λ drives some things, from where the stage before has left all. λ begins at 0 again,
+/// or goes on.
 struct Stage {
   std::string name{};
   Position position{};
@@ -529,6 +531,8 @@ struct Stage {
   std::vector<OutputValues> output_at{};
   std::optional<double> step{}, max_step{};
   std::optional<BranchPolicy> branches{};
+  std::vector<double> visit{};  ///< in place of `stop`: values of λ to which it goes one after the other
+  bool goes_on = false;         ///< no key: λ begins where the stage before has ended, see with_visits_as_stages()
 
   bool operator==(const Stage&) const = default;
 };
@@ -576,6 +580,10 @@ std::vector<std::string> driven_things(const Deck& deck);
 std::string driven_thing(const std::string& kind, std::size_t which);
 
 bool drives(const Stage& stage, const std::string& thing);
+
+/// Returns the deck with a stage in place of each value of `visit`, that ends there: NAME-1, NAME-2, …, of a deck
+/// without stages visit-1, visit-2, …
+Deck with_visits_as_stages(Deck deck);
 
 /// Returns the stage, counted from 0, in which a movement takes hold of its point: the first that drives it. Empty of a
 /// movement from rest, and of one that no stage drives.

@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/text.hpp"
@@ -85,6 +86,23 @@ void check_stop_events(Keys& keys, const Path& path) {
       keys.report("stop", "event = " + in_quotes(name) + " never happens: no value is watched",
                   "add watch = { zero = [\"MONITOR\"] } to [path]");
   }
+}
+
+// Each value is another than that where λ is.
+void visit_key(Keys& keys, std::vector<double>& visit) {
+  keys.numbers(optional("visit", "none"), visit, unit::none, "values to which λ goes in turn");
+  if (!keys.reads()) return;
+  double last = 0.0;
+  for (std::size_t i = 0; i < visit.size(); ++i) {
+    const double before = std::exchange(last, visit[i]);
+    if (visit[i] != before) continue;
+    return keys.report("visit",
+                       "λ is there already (" +
+                           (i == 0 ? std::string("it begins at 0") : round_trip(before) + " twice in a row") + ")",
+                       "leave the value out");
+  }
+  if (!visit.empty() && keys.has("stop"))
+    keys.report("stop", "visit says already where λ ends", "leave out stop, or visit");
 }
 
 void control_keys(Keys& keys, Control& control) {
@@ -221,6 +239,7 @@ void path_keys(Keys& keys, Path& path) {
   search_keys(keys, path);
   keys.table(
       optional("stop"), Form::header, [&](Keys& stop) { stop_keys(stop, path.stop); }, "");
+  visit_key(keys, path.visit);
   if (keys.reads()) check_search(keys, path);
   check_method(keys, path, names_lambda);
   check_jump(keys, path.branches, path);
@@ -246,6 +265,7 @@ void stage_keys(Keys& keys, Stage& stage, const Deck& deck) {
   keys.word(optional("branches", "as in [path]"), stage.branches, branches_words, "as in [path]");
   if (stage.branches) check_jump(keys, *stage.branches, deck.path);
   output_at_key(keys, optional("output_at", "as in [path]"), stage.output_at, "as in [path]");
+  visit_key(keys, stage.visit);
   keys.part("stop", stage.stop, [&](Stop& stop) {
     keys.table(
         optional("stop", "as in [path]"), Form::dotted, [&](Keys& of) { stop_keys(of, stop); }, "as in [path]");
@@ -253,8 +273,13 @@ void stage_keys(Keys& keys, Stage& stage, const Deck& deck) {
 }
 
 // Each thing has its turn, and the state in which a stage ends is one.
-void check_stages(Keys& root, const Deck& deck) {
-  if (!root.reads() || deck.stages.empty()) return;
+void check_stages(Keys& root, const Deck& given) {
+  if (!root.reads()) return;
+  if (!given.stages.empty() && !given.path.visit.empty())
+    root.report("path", "visit belongs to a deck without stages", "give it to the stages that go to and fro");
+  const Deck deck = with_visits_as_stages(given);
+  if (deck.stages.empty()) return;
+  const char* const table = given.stages.empty() ? "path" : "stage";
   // What a wrong name would have been cannot be told.
   const auto drives_something = [](const Stage& stage) { return !stage.drives.empty(); };
   const bool all_known = std::all_of(deck.stages.begin(), deck.stages.end(), drives_something);
@@ -263,6 +288,10 @@ void check_stages(Keys& root, const Deck& deck) {
     if (std::none_of(deck.stages.begin(), deck.stages.end(), driven))
       root.report("stage", "no stage drives " + thing, "name it in drives of a stage, or make it constant");
   }
+  for (const Stage& stage : deck.stages)
+    if (find(deck.stages, stage.name) != &stage)
+      root.report("stage", "stage " + in_quotes(stage.name) + " has the name that a visit of another one has",
+                  "give it another name");
   for (std::size_t i = 0; i + 1 < deck.stages.size(); ++i) {
     const Stop& stop = deck.stages[i].stop ? *deck.stages[i].stop : deck.path.stop;
     if (stop.bounds.empty() && !stop.contacts && stop.events.empty())
@@ -270,14 +299,14 @@ void check_stages(Keys& root, const Deck& deck) {
                   "nothing stops stage " + in_quotes(deck.stages[i].name) + ", so that the next one never begins",
                   "give it a stop, as in stop = { lambda = [-1.0, 1.0] }");
     if (deck.stages[i].branches.value_or(deck.path.branches) == BranchPolicy::all)
-      root.report("stage",
+      root.report(table,
                   "stage " + in_quotes(deck.stages[i].name) + " traces all branches, and the next one begins on one",
                   "give it branches = \"most-stable\" or \"primary\"");
   }
   if (deck.path.search)
-    root.report("path", "search = true belongs to a deck without stages", "leave out search or [[stage]]");
+    root.report("path", "search = true belongs to a deck without stages and visit", "leave out search");
   if (deck.path.method == PathMethod::incremental)
-    root.report("path", "method \"incremental\" has no stages", "use method \"spherical\"");
+    root.report("path", "method \"incremental\" has no stages and no visit", "use method \"spherical\"");
   if (find(deck.monitors, std::string("stage")) != nullptr)
     root.report("monitor", "\"stage\" is the name of another column of path.csv", "choose another name");
 }

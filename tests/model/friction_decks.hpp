@@ -65,10 +65,13 @@ inline const std::string bars = material("m", 210.0) + general_section("s", 1.0,
 
 inline std::string weight(const std::string& at, double weight) { return force(at, 0.0, -weight, constant); }
 
-// A block of weight 1 on a spring of stiffness 21, dragged to and fro.
+// A block of weight 1 on a spring of stiffness 21.
+inline const std::string block_on_spring =
+    bars + "[point]\nA = [0.0, 0.0]\nB = [10.0, 0.0]\n" + bar("bar", "A", "B") + weight("B", 1.0);
+
+// Dragged to and fro.
 inline std::string block(double friction) {
-  std::string text = bars + "[point]\nA = [0.0, 0.0]\nB = [10.0, 0.0]\n" + bar("bar", "A", "B") + weight("B", 1.0) +
-                     stage("out", "prescribed.0", 0.005, -1.0, 0.05) +
+  std::string text = block_on_spring + stage("out", "prescribed.0", 0.005, -1.0, 0.05) +
                      stage("back", "prescribed.0", -0.005, -0.1, 1.0) +
                      stage("again", "prescribed.0", 0.005, -1.0, 0.1);
   text.replace(text.find("friction = 0.3"), 14, fmt::format("friction = {}", friction));

@@ -146,6 +146,37 @@ TEST(FrictionPath, HeavyBarSlipsNodeByNode) {
   EXPECT_NEAR(dissipation_at_end(session, 2) - dissipation_at_end(session, 0), loop, 1e-14);
 }
 
+// The same block, driven to and fro by the values that λ visits: in the path, and in the second of two stages.
+TEST(FrictionPath, VisitsTurnTheBlockRound) {
+  const double slip = 0.3 / 21.0;
+  const auto expect_at = [](const std::vector<double>& found, double lambda) {
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found[0], lambda, 1e-12);
+  };
+  const std::string text = block_on_spring + all_of_dissipation + path("step = 0.005; visit = [0.05, -0.05, 0.05]");
+  const Session run = run_of(text);
+  EXPECT_EQ(reason(run), EndReason::stop);
+  expect_law(run);
+  expect_at(lambdas(run, EventKind::contact_slips, 0), slip);
+  expect_at(lambdas(run, EventKind::contact_slips, 1), 0.05 - 2.0 * slip);
+  expect_at(lambdas(run, EventKind::contact_slips, 2), -0.05 + 2.0 * slip);
+  expect_at(lambdas(run, EventKind::reversal, 1), 0.05);
+  expect_at(lambdas(run, EventKind::reversal, 2), -0.05);
+  EXPECT_EQ(run.points().back().lambda, 0.05);
+  EXPECT_NEAR(dissipation_at_end(run, 0), 0.0107142857142857, 1e-14);
+  EXPECT_NEAR(dissipation_at_end(run, 2) - dissipation_at_end(run, 0), 0.0428571428571429, 1e-13);
+  EXPECT_EQ(run.record().stages, (std::vector<std::string>{"visit-1", "visit-2", "visit-3"}));
+  for (std::size_t killed = 1; killed < run.points().size(); ++killed) expect_resumed(text, run, killed);
+
+  const Session staged =
+      run_of(block_on_spring + stage("out", "prescribed.0", 0.005, -1.0, 0.05) +
+             table("[[stage]]", R"(name = "cycle"; drives = ["prescribed.0"]; visit = [-0.1, 0.0])"));
+  EXPECT_EQ(reason(staged), EndReason::stop);
+  expect_at(lambdas(staged, EventKind::contact_slips, 1), -2.0 * slip);
+  expect_at(lambdas(staged, EventKind::contact_slips, 2), -0.1 + 2.0 * slip);
+  EXPECT_EQ(staged.points().back().lambda, 0.0);
+}
+
 TEST(FrictionPath, HeavyBarSlipsAsAWholeInTheEnd) {
   const Session session = run_of(heavy_bar(stage("push", "prescribed.0", 0.0001, -1.0, 0.006)));
   const auto out = lambdas(session, EventKind::contact_slips, 0);

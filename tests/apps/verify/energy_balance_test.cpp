@@ -40,8 +40,10 @@ std::string first_failure(const TracedDeck& traced, const std::function<void(Rec
 
 TEST(EnergyBalance, RunsWithFrictionAreConfirmed) {
   for (const std::string& text :
-       {"title = \"Block\"\n" + block(0.3), "title = \"Node\"\n" + incline(0.3), "title = \"Node\"\n" + incline(1.25),
-        dragged, "title = \"Pressed\"\n" + strip(0.8, stage("press", "prescribed.0", 0.0005, -1.0, 0.08))})
+       {"title = \"Block\"\n" + block(0.3),
+        "title = \"Block\"\n" + block_on_spring + "[path]\nvisit = [0.05, -0.05, 0.05]\n",
+        "title = \"Node\"\n" + incline(0.3), "title = \"Node\"\n" + incline(1.25), dragged,
+        "title = \"Pressed\"\n" + strip(0.8, stage("press", "prescribed.0", 0.0005, -1.0, 0.08))})
     test::expect_whole(TracedDeck(text));
 }
 

@@ -183,6 +183,20 @@ TEST(BadLoadingDecks, StagesThatDoNothing) {
       said(first + replaced(second, "load.0", "prescribed.1") + "[[prescribed]]\nat = \"A\"\nrotation = 0.0\n", second)
           .find("stage.1.drives: nothing varies with λ in this stage"),
       std::string::npos);
+  const auto visiting = [&](const std::string& values) {
+    return said(replaced(first, "stop = { lambda = [-1.0, 1.0] }", "visit = " + values), second);
+  };
+  EXPECT_EQ(visiting("[0.05, -0.05, 0.05]"), "");
+  EXPECT_NE(visiting("[0.05, 0.05]").find("visit: λ is there already (0.05 twice in a row)"), std::string::npos);
+  EXPECT_NE(visiting("[0.0, 0.05]").find("visit: λ is there already (it begins at 0)"), std::string::npos);
+  EXPECT_NE(visiting("[0.05]\nstop = { lambda = [-1.0, 1.0] }").find("stop: visit says already where λ ends"),
+            std::string::npos);
+  EXPECT_NE(
+      said(replaced(first, "stop = { lambda = [-1.0, 1.0] }", "visit = [1.0]"), replaced(second, "push", "turn-1"))
+          .find("stage \"turn-1\" has the name that a visit of another one has"),
+      std::string::npos);
+  EXPECT_NE(said(first + second, "[path]\nvisit = [1.0]\n").find("visit belongs to a deck without stages"),
+            std::string::npos);
   EXPECT_NE(said(replaced(first, "drives", "active"), second).find("did you mean drives?"), std::string::npos);
 }
 
