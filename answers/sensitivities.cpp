@@ -99,6 +99,7 @@ void Sensitivities::Beside::build(const deck::Deck& deck, const deck::Frame& fra
                                   double h, const std::vector<StageEnd>& ended_stages) {
   models.clear();
   problem.clear();
+  const deck::Deck with_stages = with_visits_as_stages(deck);
   for (const DifferencePlace& place : central_difference) {
     std::unique_ptr<Model> model;
     try {
@@ -108,8 +109,7 @@ void Sensitivities::Beside::build(const deck::Deck& deck, const deck::Frame& fra
       return;
     }
     for (std::size_t stage = 0; stage < ended_stages.size(); ++stage) {
-      const auto end =
-          end_of_stage(with_visits_as_stages(deck), model->whole_deck(), stage, ended_stages[stage].lambda);
+      const auto end = end_of_stage(with_stages, model->whole_deck(), stage, ended_stages[stage].lambda);
       if (!end) {
         problem = "an earlier load step did not end at a bound of lambda, and the change of its end is not followed";
         return;
