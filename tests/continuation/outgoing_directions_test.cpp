@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "continuation/corners/choice.hpp"
+#include "tests/support/layout_toys.hpp"
 #include "tests/support/toys.hpp"
 
 namespace arcwall::corner_test {
@@ -273,6 +275,27 @@ TEST(Corner, ANearlySingularStiffnessKeepsBothWays) {
     ASSERT_EQ(found.size(), 2U) << stiffness;
     EXPECT_EQ(with_rising_lambda(found), stiffness < 0.0 ? 2 : 1) << stiffness;
   }
+}
+
+// An active set that is left and come back to has another layout, with the same unknowns.
+TEST(Corner, APathThatComesBackOnAnotherLayoutIsAClosedLoop) {
+  const LinearContactToy toy = rate_problem(Matrix::Identity(2, 2), Vector{{1.0, -1.0}});
+  TraceTools tools(toy, TraceOptions{});
+  std::vector<VisitedCorner> visited;
+  std::optional<BranchEnd> end;
+  for (int round = 0; round < 4 && !end; ++round) {
+    State corner = origin(toy);
+    corner.active_set = ActiveSet(2, 0, std::make_shared<test::NumberedLayout>(round));
+    PathPoint at;
+    at.state = corner;
+    at.tangent = {.dx = Vector::Zero(2), .dlambda = 1.0};
+    at.arc = round;
+    Choice choice = choose(tools, visited, rays(toy, corner, all(toy)), at, {}, 1.0);
+    if (const auto* const found = std::get_if<BranchEnd>(&choice.result)) end = *found;
+    remember(visited, std::move(choice.visit));
+  }
+  ASSERT_TRUE(end.has_value());
+  EXPECT_EQ(end->reason, EndReason::closed_loop);
 }
 
 // Once all ways that leave a corner are taken a path that comes back to it is a closed loop; one that has not moved
